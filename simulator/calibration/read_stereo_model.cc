@@ -1,10 +1,11 @@
-#include <charconv>
 #include <fstream>
-#include <sstream>
 #include <stdexcept>
 
 #include "simulator/calibration/stereo_model.h"
 #include "simulator/calibration/yaml_numbers.h"
+#include "simulator/common/decimal.h"
+#include "simulator/common/input_file.h"
+#include "simulator/common/printable.h"
 
 namespace aisle::sim {
 namespace {
@@ -23,11 +24,30 @@ void SetMatrix(const std::vector<double>& k, CameraModel* camera) {
   SetPinhole({k[0], k[4], k[2], k[5]}, camera);
 }
 
-void SetSize(double width, double height, CameraModel* camera) {
+void SetSize(const CalibrationFile& file, const std::string& key, double width, double height,
+             CameraModel* camera) {
   constexpr double kMost = 16384;
-  if (!(width >= 1 && height >= 1 && width <= kMost && height <= kMost)) return;
+  for (const double pixels : {width, height}) {
+    if (pixels >= 1 && pixels <= kMost && pixels == std::floor(pixels)) continue;
+    file.Fail(key, fmt::format("{:g} x {:g} is not an image size: expected whole numbers of "
+                               "pixels from 1 to {:g}",
+                               width, height, kMost));
+  }
   camera->width = static_cast<int>(width);
   camera->height = static_cast<int>(height);
+}
+
+void SetSize(const CalibrationFile& file, const YAML::Node& resolution, const std::string& key,
+             CameraModel* camera) {
+  const std::vector<double> size = NumbersOf(file, resolution, key, 2);
+  SetSize(file, key, size[0], size[1], camera);
+}
+
+/// Out of `image_width` and `image_height`.
+void SetImageSize(const CalibrationFile& file, CameraModel* camera) {
+  SetSize(file, "image_width, image_height",
+          NumbersOf(file, file.root["image_width"], "image_width", 1)[0],
+          NumbersOf(file, file.root["image_height"], "image_height", 1)[0], camera);
 }
 
 void SetLens(const CalibrationFile& file, const std::string& model, std::vector<double> numbers,
@@ -72,8 +92,7 @@ CameraModel KalibrCamera(const CalibrationFile& file, const std::string& name) {
     file.Fail(name + ".camera_model", fmt::format("'{}': pinhole is read", model));
   }
   SetPinhole(NumbersOf(file, node["intrinsics"], name + ".intrinsics", 4), &camera);
-  const auto size = NumbersOf(file, node["resolution"], name + ".resolution", 2);
-  SetSize(size[0], size[1], &camera);
+  SetSize(file, node["resolution"], name + ".resolution", &camera);
   std::vector<double> lens;
   if (node["distortion_coeffs"]) {
     lens = NumbersOf(file, node["distortion_coeffs"], name + ".distortion_coeffs", 0);
@@ -101,8 +120,7 @@ StereoModel ReadKalibr(const CalibrationFile& file) {
 CameraModel EurocCamera(const CalibrationFile& file) {
   CameraModel camera;
   SetPinhole(NumbersOf(file, file.root["intrinsics"], "intrinsics", 4), &camera);
-  const auto size = NumbersOf(file, file.root["resolution"], "resolution", 2);
-  SetSize(size[0], size[1], &camera);
+  SetSize(file, file.root["resolution"], "resolution", &camera);
   std::vector<double> lens;
   if (file.Has("distortion_coefficients")) {
     lens = NumbersOf(file, file.root["distortion_coefficients"], "distortion_coefficients", 0);
@@ -125,8 +143,7 @@ StereoModel ReadEuroc(const Files& files) {
 CameraModel InfoCamera(const CalibrationFile& file) {
   CameraModel camera;
   SetMatrix(NumbersOf(file, file.root["camera_matrix"], "camera_matrix", 9), &camera);
-  SetSize(NumbersOf(file, file.root["image_width"], "image_width", 1)[0],
-          NumbersOf(file, file.root["image_height"], "image_height", 1)[0], &camera);
+  SetImageSize(file, &camera);
   SetLens(file, TextAt(file.root, "distortion_model"),
           NumbersOf(file, file.root["distortion_coefficients"], "distortion_coefficients", 0),
           "distortion_model", &camera);
@@ -184,27 +201,30 @@ StereoModel ReadOpenCv(const Files& files) {
                     StatedBy(OpenCvRotation(files, "R2"), OpenCvNumbers(files, "P2", 12))};
   }
   if (const CalibrationFile* file = WithKey(files, "image_width")) {  // newer samples write it
-    for (CameraModel* camera : {&model.left, &model.right}) {
-      SetSize(NumbersOf(*file, file->root["image_width"], "image_width", 1)[0],
-              NumbersOf(*file, file->root["image_height"], "image_height", 1)[0], camera);
-    }
+    for (CameraModel* camera : {&model.left, &model.right}) SetImageSize(*file, camera);
   }
   return model;
 }
 
 // --- KITTI ---------------------------------------------------------------------------------------
 
+/// The one row of that name.
 std::vector<double> KittiRow(const std::string& file, const std::string& name) {
+  const auto fail = [&](const std::string& why) {
+    throw std::runtime_error(fmt::format("{}: {}: {}", file, name, why));
+  };
   std::ifstream stream(file);
   std::vector<double> numbers;
   for (std::string line; std::getline(stream, line);) {
     if (!line.starts_with(name + ":")) continue;
-    std::istringstream words(line.substr(name.size() + 1));
-    for (double number = 0; words >> number;) numbers.push_back(number);
+    if (!numbers.empty()) fail("duplicate row; keep one of them");
+    for (const std::string_view word : WordsOf(std::string_view(line).substr(name.size() + 1))) {
+      const std::optional<double> number = DecimalOf(word);
+      if (!number) fail(fmt::format("'{}' is not a number; expected 12 numbers", Printable(word)));
+      numbers.push_back(*number);
+    }
   }
-  if (numbers.size() != 12 || !(numbers[0] > 0)) {
-    throw std::runtime_error(fmt::format("{}: {}: expected a 3x4 projection", file, name));
-  }
+  if (numbers.size() != 12 || !(numbers[0] > 0)) fail("expected a 3x4 projection");
   return numbers;
 }
 
@@ -220,6 +240,8 @@ StereoModel ReadKitti(const std::string& file) {
 }
 
 bool IsKitti(const std::string& file) {
+  constexpr std::uintmax_t kMostBytes = 1 << 20;
+  if (!InputFileError(file, kMostBytes).empty()) return false;  // OpenCalibration says why
   std::ifstream stream(file);
   std::string word;
   return stream >> word && word == "P0:";

@@ -1,5 +1,6 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core/eigen.hpp>
+#include <stdexcept>
 
 #include "simulator/calibration/stereo_model.h"
 
@@ -30,14 +31,18 @@ RectifiedPair Rectified(const StereoModel& model) {
   cv::Matx34d left, right;
   cv::Matx44d to_depth;
   const cv::Size size(pair.width, pair.height);
-  if (model.left.equidistant) {
-    cv::fisheye::stereoRectify(MatrixOf(model.left), model.left.distortion, MatrixOf(model.right),
-                               model.right.distortion, size, rotation, translation, left_turn,
-                               right_turn, left, right, to_depth, cv::CALIB_ZERO_DISPARITY, size);
-  } else {
-    cv::stereoRectify(MatrixOf(model.left), model.left.distortion, MatrixOf(model.right),
-                      model.right.distortion, size, rotation, translation, left_turn, right_turn,
-                      left, right, to_depth, cv::CALIB_ZERO_DISPARITY, 0);
+  try {
+    if (model.left.equidistant) {
+      cv::fisheye::stereoRectify(MatrixOf(model.left), model.left.distortion, MatrixOf(model.right),
+                                 model.right.distortion, size, rotation, translation, left_turn,
+                                 right_turn, left, right, to_depth, cv::CALIB_ZERO_DISPARITY, size);
+    } else {
+      cv::stereoRectify(MatrixOf(model.left), model.left.distortion, MatrixOf(model.right),
+                        model.right.distortion, size, rotation, translation, left_turn, right_turn,
+                        left, right, to_depth, cv::CALIB_ZERO_DISPARITY, 0);
+    }
+  } catch (const cv::Exception& error) {  // of numbers that no rig has
+    throw std::runtime_error("its cameras cannot be rectified: " + error.err);
   }
   pair.fx = left(0, 0);
   pair.fy = left(1, 1);

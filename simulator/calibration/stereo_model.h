@@ -36,7 +36,8 @@ struct StereoModel {
 ///   (intrinsics and extrinsics, or both in one), EuRoC's sensor.yaml (left, right), KITTI's
 ///   calib.txt (P0 and P1, rectified).
 /// Throws std::runtime_error, "file: key: what is wrong and what is expected", also for a baseline
-/// that is not metres or has the wrong sign, and for a turn that is none or mirrors.
+/// that is not metres or has the wrong sign, for a turn that is none or mirrors, and for a size
+/// that no image has.
 StereoModel ReadStereoModel(const std::vector<std::string>& files);
 
 /// The rectified pair of a rig: what a stereo SLAM sees of it.
@@ -45,8 +46,9 @@ struct RectifiedPair {
   double fx = 0, fy = 0, cx = 0, cy = 0;
   double baseline_m = 0;
 };
-/// As stated, else by cv::stereoRectify with alpha 0. The sizes must be known. Both eyes have the
-/// left one's pinhole: where the right one's is stated to differ (OpenCV without
+/// As stated, else by cv::stereoRectify with alpha 0, which throws std::runtime_error where it
+/// cannot; of absurd lenses it may also be absurd, or nan. The sizes must be known. Both eyes have
+/// the left one's pinhole: where the right one's is stated to differ (OpenCV without
 /// CALIB_ZERO_DISPARITY), its picture is that of the left one's pinhole in its place.
 RectifiedPair Rectified(const StereoModel& model);
 

@@ -4,17 +4,25 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "simulator/common/input_file.h"
+#include "simulator/common/yaml_faults.h"
+
 namespace aisle::sim {
 namespace {
 
+constexpr std::size_t kMostNumbers = 64;  // a motion has 16
+
+/// Stops at the first thing that is no number, and at one number too many.
 void Collect(const YAML::Node& node, std::vector<double>* numbers, bool* good) {
+  if (!*good) return;
   if (node.IsMap() && node["data"]) return Collect(node["data"], numbers, good);
   if (node.IsSequence()) {
     for (const YAML::Node& part : node) Collect(part, numbers, good);
     return;
   }
   double value = 0;
-  if (node.IsScalar() && YAML::convert<double>::decode(node, value) && std::isfinite(value)) {
+  if (numbers->size() < kMostNumbers && node.IsScalar() &&
+      YAML::convert<double>::decode(node, value) && std::isfinite(value)) {
     numbers->push_back(value);
   } else {
     *good = false;
@@ -29,20 +37,20 @@ void CalibrationFile::Fail(const std::string& key, const std::string& why) const
 
 CalibrationFile OpenCalibration(const std::string& file) {
   constexpr std::uintmax_t kMostBytes = 1 << 20;
-  std::error_code error;
-  const auto size = std::filesystem::file_size(file, error);
-  if (error) throw std::runtime_error(file + ": cannot be read: no such file");
-  if (size > kMostBytes) throw std::runtime_error(file + ": is too large for a calibration");
+  if (const std::string wrong = InputFileError(file, kMostBytes); !wrong.empty()) {
+    throw std::runtime_error(wrong);
+  }
   std::ostringstream bytes;
   bytes << std::ifstream(file, std::ios::binary).rdbuf();
   std::string text = bytes.str();
-  if (text.starts_with("%YAML:")) text.erase(0, text.find('\n') + 1);  // OpenCV's own dialect
-  try {
-    return {file, YAML::Load(text)};
-  } catch (const YAML::Exception& wrong) {
+  // OpenCV's own dialect. The line stays, empty, so that those below keep their numbers.
+  if (text.starts_with("%YAML:")) text.erase(0, std::min(text.find('\n'), text.size()));
+  if (const std::vector<YamlFault> faults = YamlFaults(text); !faults.empty()) {
+    const auto& [line, column, key, what] = faults.front();
     throw std::runtime_error(
-        fmt::format("{}:{}: not YAML: {}", file, wrong.mark.line + 1, wrong.msg));
+        fmt::format("{}:{}:{}: {}{}{}", file, line, column, key, key.empty() ? "" : ": ", what));
   }
+  return {file, YAML::Load(text)};
 }
 
 std::vector<double> NumbersOf(const CalibrationFile& file, const YAML::Node& node,
@@ -83,6 +91,11 @@ Eigen::Isometry3d MotionOf(const CalibrationFile& file, const YAML::Node& node,
     motion.translation()(static_cast<int>(i)) = row(i)[3];
   }
   motion.linear() = RotationOf(file, turn, key);
+  constexpr double kTolerance = 1e-6;
+  if (!Eigen::Map<const Eigen::RowVector4d>(&numbers[12])
+           .isApprox(Eigen::RowVector4d(0, 0, 0, 1), kTolerance)) {
+    file.Fail(key, "not a rigid motion: its last row must be 0 0 0 1; is it transposed?");
+  }
   return motion;
 }
 

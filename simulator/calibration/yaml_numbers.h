@@ -18,11 +18,12 @@ struct CalibrationFile {
   bool Has(const std::string& key) const { return root.IsMap() && root[key]; }
 };
 
-/// Opens one, OpenCV's own first line included. Throws std::runtime_error.
+/// Opens one, OpenCV's own first line included. Throws std::runtime_error, also where its YAML is
+/// at fault as such (YamlFaults).
 CalibrationFile OpenCalibration(const std::string& file);
 
 /// All finite numbers of a list, of lists of lists, or of a map's `data`. Throws where there are
-/// not `count` of them (0: any number).
+/// not `count` of them (0: any number, at most 64).
 std::vector<double> NumbersOf(const CalibrationFile& file, const YAML::Node& node,
                               const std::string& key, std::size_t count);
 
@@ -30,7 +31,7 @@ std::vector<double> NumbersOf(const CalibrationFile& file, const YAML::Node& nod
 Eigen::Matrix3d RotationOf(const CalibrationFile& file, const std::vector<double>& numbers,
                            const std::string& key);
 
-/// A rigid motion out of 16 numbers, row major. Throws where its turn is none.
+/// A rigid motion out of 16 numbers, row major. Throws where its turn or its last row is none.
 Eigen::Isometry3d MotionOf(const CalibrationFile& file, const YAML::Node& node,
                            const std::string& key);
 

@@ -17,6 +17,11 @@
 namespace aisle::sim {
 namespace {
 
+// The largest warehouses have such a floor. Solving the light takes gigabytes beyond it, and hours
+// beyond so many lamps: each is looked for from everywhere.
+constexpr double kMostFloor_m2 = 250'000;
+constexpr std::int64_t kMostLamps = 2'000;
+
 /// Twice the signed area of a triangle, positive where it turns left.
 double Turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
   return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
@@ -73,10 +78,18 @@ class Checker {
 
  private:
   bool CheckHall() {
-    if (((scene_.hall.to - scene_.hall.from).array() >= 2).all()) return true;
+    const Eigen::Vector2d size = scene_.hall.to - scene_.hall.from;
+    if (!(size.array() >= 2).all()) {
+      issues_->Add(scene_.hall.mark, "hall",
+                   "`to` must be at least 2 m beyond `from` in x and y; example: from: [-5, -8], "
+                   "to: [20, 8]");
+      return false;
+    }
+    if (size.prod() <= kMostFloor_m2) return true;
     issues_->Add(
         scene_.hall.mark, "hall",
-        "`to` must be at least 2 m beyond `from` in x and y; example: from: [-5, -8], to: [20, 8]");
+        fmt::format("its floor of {:g} x {:g} m is {:.0f} m²; at most {:.0f} m² can be lit",
+                    size.x(), size.y(), size.prod(), kMostFloor_m2));
     return false;
   }
 
@@ -122,7 +135,22 @@ class Checker {
                  fmt::format("no pair named '{}' among rig.pairs", rig.pair));
   }
 
+  /// All grids together; the first one too many is told.
+  void CheckLampCount() {
+    std::int64_t lamps = 0;
+    for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
+      const LightsSpec& lights = scene_.lights[i];
+      lamps += std::int64_t{lights.rows} * lights.per_row;
+      if (lamps <= kMostLamps) continue;
+      return issues_->Add(lights.mark, fmt::format("lights[{}]", i),
+                          fmt::format("with this grid there are {} lamps; a scene has at most {}: "
+                                      "use fewer `rows` and `per_row`, of a larger `size_m`",
+                                      lamps, kMostLamps));
+    }
+  }
+
   void CheckLights() {
+    CheckLampCount();
     for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
       const LightsSpec& lights = scene_.lights[i];
       const std::string key = fmt::format("lights[{}]", i);

@@ -35,14 +35,14 @@ constexpr std::initializer_list<const char*> kDynamics = {"none", "low", "mid", 
 void DescribeCamera(Fields& f, CameraSpec& camera) {
   camera.mark = f.mark();
   f.Integers({"size_px", "width and height of the image", "[752, 480]"}, camera.size_px.data(), 2,
-             {64, 4096});
+             kCameraRanges.size_px);
   f.Numbers({"focal_px", "focal lengths fx and fy", "[435.2, 435.2]"}, camera.focal_px.data(), 2,
-            {20, 10000});
+            kCameraRanges.focal_px);
   f.Numbers(
       {"center_px", "principal point cx and cy; the first pixel's centre is 0", "[367.2, 252.2]"},
-      camera.center_px.data(), 2, {0, 4096});
+      camera.center_px.data(), 2, kCameraRanges.center_px);
   f.Number({"baseline_m", "distance between the two cameras", "0.12"}, &camera.baseline_m,
-           {0.005, 5});
+           kCameraRanges.baseline_m);
   f.Choice({"distortion", "distortion model of both lenses", "radial-tangential"},
            &camera.distortion, {"none", "radial-tangential", "equidistant"});
   f.Numbers({"distortion_coefficients",

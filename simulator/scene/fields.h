@@ -21,7 +21,14 @@ struct Key {
 
 struct Range {
   double low = -1e9, high = 1e9;
+
+  bool Holds(double value) const { return value >= low && value <= high; }  ///< nan: never
 };
+
+/// What a scene's cameras may be, whether it says so itself or a calibration does.
+inline constexpr struct CameraRanges {
+  Range size_px{64, 4096}, focal_px{20, 10000}, center_px{0, 4096}, baseline_m{0.005, 5};
+} kCameraRanges;
 
 /// A description is written once, as a function that names every field of a struct, and is used
 /// twice: to read a file and to write the schema. Each call leaves the value alone when the key is

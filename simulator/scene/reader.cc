@@ -7,6 +7,8 @@
 #include <cmath>
 #include <set>
 
+#include "simulator/common/printable.h"
+
 namespace aisle::sim {
 namespace {
 
@@ -33,19 +35,13 @@ std::string Shown(const YamlValue& value) {
   if (value.is_null()) return "nothing";
   if (value.is_map()) return "a map";
   if (value.is_list()) return fmt::format("a list of {}", value.items.size());
-  std::string text = value.text.substr(0, 40);
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
-  }
-  return "'" + text + "'";
+  return fmt::format("'{}'", Printable(value.text, 40));
 }
 
 std::string ToText(Range range) {
   if (range.low <= -1e9 && range.high >= 1e9) return "";
   return fmt::format(" from {:g} to {:g}", range.low, range.high);
 }
-
-bool Within(double value, Range range) { return value >= range.low && value <= range.high; }
 
 }  // namespace
 
@@ -87,7 +83,7 @@ void YamlReader::Number(const Key& key, double* value, Range range) {
   const auto node = Find(key);
   if (!node) return;
   const auto number = DecimalNumber(*node);
-  if (number && Within(*number, range)) {
+  if (number && range.Holds(*number)) {
     *value = *number;
   } else {
     Expected(*node, key, "a number" + ToText(range));
@@ -98,7 +94,7 @@ void YamlReader::Integer(const Key& key, int* value, Range range) {
   const auto node = Find(key);
   if (!node) return;
   const auto number = DecimalNumber(*node);
-  if (number && Within(*number, range) && *number == std::floor(*number)) {
+  if (number && range.Holds(*number) && *number == std::floor(*number)) {
     *value = static_cast<int>(*number);
   } else {
     Expected(*node, key, "an integer" + ToText(range));
@@ -158,7 +154,7 @@ bool YamlReader::ReadPair(const YamlValue& list, double* values, std::size_t cou
   if (!list.is_list() || list.items.size() != count) return false;
   for (std::size_t i = 0; i < count; ++i) {
     const auto number = DecimalNumber(list.items[i]);
-    if (!number || !Within(*number, range)) return false;
+    if (!number || !range.Holds(*number)) return false;
     values[i] = *number;
   }
   return true;
@@ -263,7 +259,7 @@ void YamlReader::ReportKeys() {
     if (std::ranges::find(known_, name) != known_.end()) continue;
     const std::string near = NearestWord(name, known_);
     misspelt.insert(near);
-    issues_->Add(place, PathOf(name.substr(0, 80)),
+    issues_->Add(place, PathOf(Printable(name, 80)),
                  near.empty() ? fmt::format("unknown key; known keys: {}", fmt::join(known_, ", "))
                               : fmt::format("unknown key; did you mean {}?", near));
   }

@@ -1,12 +1,14 @@
 #include "simulator/scene/rig_files.h"
 
-#include <charconv>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "simulator/calibration/stereo_model.h"
+#include "simulator/common/decimal.h"
+#include "simulator/common/input_file.h"
+#include "simulator/common/printable.h"
 #include "simulator/scene/check_poses.h"
+#include "simulator/scene/fields.h"
 
 namespace aisle::sim {
 namespace {
@@ -14,6 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostPoses = 1'000'000;
+constexpr std::uintmax_t kMostPoseBytes = 256 << 20;
 
 std::string Resolved(const Scene& scene, Mark mark, const std::string& name) {
   const auto index = static_cast<std::size_t>(mark.file);
@@ -21,8 +24,50 @@ std::string Resolved(const Scene& scene, Mark mark, const std::string& name) {
   return (fs::path(from).parent_path() / name).lexically_normal().string();
 }
 
-// --- Calibration
-// ---------------------------------------------------------------------------------
+// --- Calibration ---------------------------------------------------------------------------------
+
+/// Which of a pair's numbers no scene could say itself, or "".
+std::string BeyondRanges(const RectifiedPair& pair) {
+  struct Held {
+    const char* name;
+    double value;
+    Range range;
+  };
+  for (const auto& [name, value, range] : std::initializer_list<Held>{
+           {"width in pixels", static_cast<double>(pair.width), kCameraRanges.size_px},
+           {"height in pixels", static_cast<double>(pair.height), kCameraRanges.size_px},
+           {"focal length fx in pixels", pair.fx, kCameraRanges.focal_px},
+           {"focal length fy in pixels", pair.fy, kCameraRanges.focal_px},
+           {"principal point cx in pixels", pair.cx, kCameraRanges.center_px},
+           {"principal point cy in pixels", pair.cy, kCameraRanges.center_px},
+           {"baseline in metres", pair.baseline_m, kCameraRanges.baseline_m}}) {
+    if (range.Holds(value)) continue;
+    return fmt::format("the rectified pair's {} is {:g}; expected {:g} to {:g}", name, value,
+                       range.low, range.high);
+  }
+  return "";
+}
+
+/// The rectified pair of a rig; `size_px` where the files do not say it. Throws std::exception,
+/// whose text names the file.
+RectifiedPair PairOf(const std::vector<std::string>& files, const std::array<int, 2>& size_px) {
+  StereoModel model = ReadStereoModel(files);
+  if (model.left.width == 0) {  // OpenCV's and KITTI's files do not say it
+    model.left.width = size_px[0];
+    model.left.height = size_px[1];
+  }
+  const auto fail = [&](const std::string& why) {
+    throw std::runtime_error(fmt::format("{}: {}", files[0], why));
+  };
+  RectifiedPair pair;
+  try {
+    pair = Rectified(model);
+  } catch (const std::runtime_error& error) {
+    fail(error.what());
+  }
+  if (const std::string wrong = BeyondRanges(pair); !wrong.empty()) fail(wrong);
+  return pair;
+}
 
 /// What a calibration makes of a pair's cameras; `key` is for the messages.
 void ReadCalibration(const CalibrationSpec& named, const std::string& key, CameraSpec* camera,
@@ -35,74 +80,57 @@ void ReadCalibration(const CalibrationSpec& named, const std::string& key, Camer
   std::vector<std::string> files = {Resolved(*scene, named.left_mark, named.left)};
   if (!named.right.empty()) files.push_back(Resolved(*scene, named.right_mark, named.right));
   try {
-    StereoModel model = ReadStereoModel(files);
-    if (model.left.width == 0) {  // OpenCV's and KITTI's files do not say it
-      model.left.width = camera->size_px[0];
-      model.left.height = camera->size_px[1];
-    }
-    const RectifiedPair pair = Rectified(model);
+    const RectifiedPair pair = PairOf(files, camera->size_px);
     camera->size_px = {pair.width, pair.height};
     camera->focal_px = {pair.fx, pair.fy};
     camera->center_px = {pair.cx, pair.cy};
     camera->baseline_m = pair.baseline_m;
     camera->distortion = Distortion::kNone;
     scene->files.insert(scene->files.end(), files.begin(), files.end());
-  } catch (const std::runtime_error& error) {
+  } catch (const std::exception& error) {  // a library may throw anything of odd numbers
     issues->Add(named.left_mark, key, error.what());
   }
 }
 
-// --- Trajectory
-// ----------------------------------------------------------------------------------
-
-/// Seconds as whole nanoseconds, digit by digit: a double near 1.6e9 holds no
-/// nanoseconds.
-std::optional<std::int64_t> NanosecondsOf(const std::string& text) {
-  const std::size_t dot = text.find('.');
-  const std::string whole = text.substr(0, dot);
-  std::string part = dot == std::string::npos ? "" : text.substr(dot + 1, 9);
-  if (part.find_first_not_of("0123456789") != std::string::npos) return std::nullopt;
-  part.resize(9, '0');
-  std::int64_t seconds = 0, nanoseconds = 0;
-  const auto [end, error] = std::from_chars(whole.data(), whole.data() + whole.size(), seconds);
-  std::from_chars(part.data(), part.data() + part.size(), nanoseconds);
-  constexpr std::int64_t kMostSeconds = 9'000'000'000;
-  if (error != std::errc() || end != whole.data() + whole.size() || seconds < 0 ||
-      seconds > kMostSeconds) {
-    return std::nullopt;
-  }
-  return seconds * 1'000'000'000 + nanoseconds;
-}
+// --- Trajectory ----------------------------------------------------------------------------------
 
 /// What is wrong with a line of a TUM file, or nothing.
 std::string TakePose(const std::string& line, std::vector<TimedPose>* poses) {
-  std::istringstream words(line);
-  std::string stamp, rest;
-  words >> stamp;
+  constexpr std::size_t kMostBytes = 4096;
+  if (line.size() > kMostBytes) return fmt::format("a line of {} bytes is not a pose", line.size());
+  const std::vector<std::string_view> words = WordsOf(line);
+  const auto expected = [](const std::string& but) {
+    return "expected 'seconds tx ty tz qx qy qz qw', got " + but;
+  };
+  if (words.size() != 8) return expected(fmt::format("{} fields", words.size()));
+  const std::optional<std::int64_t> time_ns = NanosecondsOf(words[0]);
+  if (!time_ns) return expected(fmt::format("the time '{}'", Printable(words[0])));
   std::array<double, 7> n{};
-  for (double& number : n) words >> number;
-  const auto time_ns = NanosecondsOf(stamp);
-  if (!time_ns || !words || words >> rest) return "expected 'seconds tx ty tz qx qy qz qw'";
-  const Eigen::Quaterniond turn(n[6], n[3], n[4], n[5]);
-  const Eigen::Vector3d place(n[0], n[1], n[2]);
-  constexpr double kTolerance = 0.05;
-  if (!place.allFinite() || !(std::abs(turn.norm() - 1) < kTolerance)) {
-    return "the quaternion is not a rotation, or a number is not finite";
+  for (std::size_t i = 0; i < n.size(); ++i) {
+    const std::optional<double> number = DecimalOf(words[i + 1]);
+    if (!number) return expected(fmt::format("'{}'", Printable(words[i + 1])));
+    n[i] = *number;
   }
+  const Eigen::Quaterniond turn(n[6], n[3], n[4], n[5]);
+  constexpr double kTolerance = 0.05;
+  if (!(std::abs(turn.norm() - 1) < kTolerance)) return "the quaternion is not a rotation";
   if (!poses->empty() && poses->back().time_ns >= *time_ns) return "times must increase";
   if (poses->size() >= kMostPoses) return "too many poses";
   TimedPose pose{*time_ns, Eigen::Isometry3d::Identity()};
   pose.T_world_body.linear() = turn.normalized().toRotationMatrix();
-  pose.T_world_body.translation() = place;
+  pose.T_world_body.translation() << n[0], n[1], n[2];
   poses->push_back(pose);
   return "";
 }
 
 std::string ReadPoses(const std::string& file, std::vector<TimedPose>* poses) {
-  std::ifstream stream(file);
-  if (!stream) return file + ": no such file";
+  if (std::string wrong = InputFileError(file, kMostPoseBytes); !wrong.empty()) return wrong;
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) return file + ": cannot be read";
   std::string line;
   for (int number = 1; std::getline(stream, line); ++number) {
+    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // Windows' editors begin with it
+    if (number == 1 && line.starts_with(kByteOrderMark)) line.erase(0, kByteOrderMark.size());
     const std::size_t first = line.find_first_not_of(" \t\r");
     if (first == std::string::npos || line[first] == '#') continue;
     const std::string wrong = TakePose(line, poses);

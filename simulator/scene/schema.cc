@@ -15,7 +15,7 @@ class SchemaWriter : public Fields {
  public:
   void Number(const Key& key, double* value, Range range) override {
     Json& property = Add(key, Numeric("number", range));
-    if (!key.required && Within(*value, range)) property["default"] = Rounded(*value);
+    if (!key.required && range.Holds(*value)) property["default"] = Rounded(*value);
   }
   void Integer(const Key& key, int* value, Range range) override {
     Add(key, Numeric("integer", range))["default"] = *value;
@@ -88,9 +88,6 @@ class SchemaWriter : public Fields {
   }
 
  private:
-  static bool Within(double value, Range range) {
-    return value >= range.low && value <= range.high;
-  }
   /// Radians that come back as degrees carry rounding noise.
   static double Rounded(double value) { return std::round(value * 1e9) / 1e9; }
 

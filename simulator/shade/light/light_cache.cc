@@ -128,6 +128,12 @@ bool Read(std::ifstream& in, std::span<T> values) {
   return in.good();
 }
 
+/// How large a file with that header is.
+std::uintmax_t BytesOf(const Header& header) {
+  return sizeof(Header) + sizeof(LightVolume::Shape) + 2 * header.slots * sizeof(float) +
+         header.nodes * sizeof(LightVolume::Node);
+}
+
 }  // namespace
 
 fs::path DefaultLightCache() {
@@ -194,6 +200,8 @@ std::optional<LightState> LoadLight(const fs::path& folder, std::uint64_t key, s
       header.slots != slots || header.nodes > kMaxNodes) {
     return std::nullopt;
   }
+  std::error_code error;  // before a damaged header makes room for what is not there
+  if (fs::file_size(FileOf(folder, key), error) != BytesOf(header)) return std::nullopt;
   LightVolume::Shape shape;
   std::vector<LightVolume::Node> nodes(header.nodes);
   LightState state;
@@ -206,7 +214,6 @@ std::optional<LightState> LoadLight(const fs::path& folder, std::uint64_t key, s
   }
   state.volume = LightVolume(shape, std::move(nodes));
   if (Checksum(state) != header.checksum) return std::nullopt;
-  std::error_code error;
   fs::last_write_time(FileOf(folder, key), fs::file_time_type::clock::now(), error);  // was used
   return state;
 }

@@ -360,5 +360,80 @@ TEST_F(StereoModelTest, WhatIsNoneIsNamedWithWhatIsRead) {
               HasSubstr("expected 4 numbers"));
 }
 
+/// A text with a part of it replaced.
+std::string Changed(std::string text, const std::string& what, const std::string& by) {
+  const std::size_t at = text.find(what);
+  EXPECT_NE(at, std::string::npos) << what;
+  return text.replace(at, what.size(), by);
+}
+
+std::string TextOf(const std::string& file) {
+  std::ifstream stream(file);
+  return {(std::istreambuf_iterator<char>(stream)), {}};
+}
+
+/// An alias may stand for its own list, or for 10^9 numbers.
+TEST_F(StereoModelTest, AliasesHaveNoEnd) {
+  EXPECT_THAT(WhyNot({Put("own.yaml", "cam0: {camera_model: pinhole, intrinsics: &a [*a]}\n")}),
+              AllOf(HasSubstr("own.yaml:1:"), HasSubstr("not allowed")));
+  std::string bomb = "a0: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]\n";
+  for (int i = 1; i < 9; ++i) {
+    bomb +=
+        fmt::format("a{0}: &a{0} [*a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}]\n", i, i - 1);
+  }
+  bomb += "cam0: {camera_model: pinhole, intrinsics: *a8}\n";
+  EXPECT_THAT(WhyNot({Put("bomb.yaml", bomb)}), HasSubstr("bomb.yaml:1:"));
+  EXPECT_THAT(WhyNot({Put("twice.yaml", "cam0: {}\ncam0: {}\n")}),
+              HasSubstr("twice.yaml:2:1: cam0: duplicate key"));
+}
+
+TEST_F(StereoModelTest, NumbersWithoutEndAreRefused) {
+  std::string many;
+  for (int i = 0; i < 65; ++i) many += "1,";
+  const std::string text =
+      Changed(TextOf(Kalibr()[0]), "distortion_coeffs: [", "distortion_coeffs: [" + many);
+  EXPECT_THAT(WhyNot({Put("many.yaml", text)}), HasSubstr("cam0.distortion_coeffs: expected"));
+}
+
+TEST_F(StereoModelTest, WhatIsNoRegularFileIsNamed) {
+  EXPECT_THAT(WhyNot({"/dev/zero"}), HasSubstr("is a device"));
+  EXPECT_THAT(WhyNot({folder_.string()}), HasSubstr("is a folder"));
+}
+
+TEST_F(StereoModelTest, SizesThatNoImageHasAreNamed) {
+  const std::string text = TextOf(Kalibr()[0]);
+  for (const char* size : {"[-640, 480]", "[0, 0]", "[20000, 100]", "[320.7, 200]"}) {
+    EXPECT_THAT(WhyNot({Put("size.yaml", Changed(text, "[752, 480]", size))}),
+                AllOf(HasSubstr("size.yaml: cam0.resolution:"), HasSubstr("not an image size")))
+        << size;
+  }
+  std::vector<std::string> info = CameraInfo();
+  Put("left.yaml", Changed(TextOf(info[0]), "image_width: 752", "image_width: 0"));
+  EXPECT_THAT(WhyNot(info), HasSubstr("left.yaml: image_width"));
+}
+
+TEST_F(StereoModelTest, AMotionsLastRowIsOne) {
+  const std::string text = TextOf(Kalibr()[0]);
+  const std::size_t row = text.rfind('[');
+  EXPECT_THAT(WhyNot({Put("row.yaml", text.substr(0, row) + "[9, 9, 9, 9]]\n")}),
+              AllOf(HasSubstr("cam1.T_cn_cnm1"), HasSubstr("0 0 0 1")));
+}
+
+TEST_F(StereoModelTest, AKittiRowIsTwelveNumbersOnce) {
+  const std::string p0 = "P0: 185 0 156 0 0 185 107 0 0 0 1 0\n";
+  EXPECT_EQ(WhyNot({Put("k.txt", p0 + "P1: 185 0 156 -18.5 0 185 107 0 0 0 1 0\r\n")}), "");
+  EXPECT_THAT(WhyNot({Put("k.txt", p0 + "P1: 185 0 156 -18.5 0 185 107 0 0 0 1 0 junk 7\n")}),
+              AllOf(HasSubstr("k.txt: P1:"), HasSubstr("'junk'")));
+  EXPECT_THAT(WhyNot({Put("k.txt", p0 + "P1: 185 0 156 -18.5 0 185 107 0\nP1: 0 0 1 0\n")}),
+              AllOf(HasSubstr("k.txt: P1:"), HasSubstr("duplicate row")));
+}
+
+/// OpenCV's own exception is none of std::runtime_error's.
+TEST_F(StereoModelTest, WhatCannotBeRectifiedIsARuntimeError) {
+  StereoModel model = ReadStereoModel(Kalibr());
+  model.left.distortion = {0.1, 0.1, 0.1};  // OpenCV has no such lens
+  EXPECT_THROW(Rectified(model), std::runtime_error);
+}
+
 }  // namespace
 }  // namespace aisle::sim

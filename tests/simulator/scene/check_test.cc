@@ -224,5 +224,37 @@ TEST(FloorWay, StandsBeforeAndAfterAndGoesStraightInBetween) {
   EXPECT_EQ((FloorWay{0.5, {{3, 4}}}).At(2), Eigen::Vector2d(3, 4));
 }
 
+std::string RoomOf(const std::string& hall, const std::string& lights) {
+  return "about: It is large.\nframes: 100\nrig: {start: [0, 0], steps: []}\nhall: {" + hall +
+         "}\nlights:\n" + lights;
+}
+
+std::vector<std::string> MessagesOfRoom(const std::string& hall, const std::string& lights) {
+  try {
+    ParseScene(RoomOf(hall, lights), "s.yaml");
+  } catch (const SceneError& error) {
+    return error.messages();
+  }
+  return {};
+}
+
+TEST(Halls, HaveAFloorThatCanBeLit) {
+  const std::string lights = "- {height_m: 3}\n";
+  EXPECT_THAT(MessagesOfRoom("from: [-250, -250], to: [250, 250], height_m: 10", lights),
+              IsEmpty());
+  EXPECT_THAT(MessagesOfRoom("from: [-250, -250], to: [250, 251], height_m: 10", lights),
+              ElementsAre(AllOf(HasSubstr("s.yaml:4:"), HasSubstr("hall: its floor of 500 x 501 m"),
+                                HasSubstr("at most 250000 m²"))));
+}
+
+TEST(Lamps, OfAllGridsTogetherAreCounted) {
+  const std::string hall = "from: [-50, -50], to: [50, 50], height_m: 10";
+  const std::string full = "- {rows: 20, per_row: 100, height_m: 6}\n";
+  EXPECT_THAT(MessagesOfRoom(hall, full), IsEmpty());
+  EXPECT_THAT(MessagesOfRoom(hall, full + "- {rows: 1, per_row: 1, height_m: 6}\n" + full),
+              ElementsAre(AllOf(HasSubstr("s.yaml:7:"), HasSubstr("lights[1]"),
+                                HasSubstr("there are 2001 lamps"))));
+}
+
 }  // namespace
 }  // namespace aisle::sim

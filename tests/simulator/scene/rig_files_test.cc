@@ -287,5 +287,70 @@ TEST_F(RigFilesTest, MistakesAreNamed) {
   EXPECT_THAT(WhyNot("start: [0, 0], calibration_right: calib.txt"), HasSubstr("left camera"));
 }
 
+std::string KalibrFile(const std::string& intrinsics, const std::string& lens) {
+  std::string text;
+  for (const char* name : {"cam0", "cam1"}) {
+    text += fmt::format(
+        "{}:\n  camera_model: pinhole\n  intrinsics: {}\n  distortion_model: {}\n"
+        "  distortion_coeffs: [0, 0, 0, 0]\n  resolution: [320, 200]\n",
+        name, intrinsics, lens);
+  }
+  return text + "  T_cn_cnm1: [[1,0,0,-0.1],[0,1,0,0],[0,0,1,0],[0,0,0,1]]\n";
+}
+
+/// A calibration decides the camera as the scene would, within the same bounds.
+TEST_F(RigFilesTest, ACalibrationMakesNoCameraThatASceneCouldNotHave) {
+  const std::string rig = "calibration: c.yaml, start: [0, 0]";
+  Put("c.yaml", KalibrFile("[185, 185, 156, 107]", "radtan"));
+  EXPECT_EQ(WhyNot(rig), "");
+  for (const char* intrinsics :
+       {"[1e300, 1e300, 156, 107]", "[1e-300, 1e-300, 156, 107]", "[185, 185, 1e300, 1e300]"}) {
+    for (const char* lens : {"radtan", "equidistant"}) {
+      Put("c.yaml", KalibrFile(intrinsics, lens));
+      EXPECT_THAT(WhyNot(rig), testing::AllOf(HasSubstr("scene.yaml:4:"), HasSubstr("/c.yaml: ")))
+          << intrinsics << lens;
+    }
+  }
+  const auto kitti = [](const char* f, const char* cx, const char* shift) {
+    return fmt::format("P0: {0} 0 {1} 0 0 {0} 120 0 0 0 1 0\nP1: {0} 0 {1} {2} 0 {0} 120 0 0 0 1 0",
+                       f, cx, shift);
+  };
+  for (const auto& [text, wrong] :
+       {std::pair(kitti("19", "180", "-2"), "fx in pixels is 19; expected 20 to 10000"),
+        std::pair(kitti("200", "-1", "-20"), "cx in pixels is -1; expected 0 to 4096"),
+        std::pair(kitti("200", "180", "-0.2"), "baseline in metres is 0.001; expected 0.005")}) {
+    Put("c.yaml", text);
+    EXPECT_THAT(WhyNot(rig), testing::AllOf(HasSubstr("/c.yaml: "), HasSubstr(wrong)));
+  }
+}
+
+TEST_F(RigFilesTest, StampsAreReadWhateverTheirNotation) {
+  Put("way.txt",
+      "\xef\xbb\xbf-1.000000000000000056e-01 1 0 0.5 0 0 0 1\r\n"
+      "0.000000000000000000e+00 1.5e+00 0 0.5 0 0 0 1\r\n"
+      "2.000000000000000111e-01 2 1 0.5 0 0 0 1\r\n");
+  const Scene scene = LoadScene(SceneWith("trajectory: way.txt, trajectory_of: vehicle", 5));
+  ASSERT_EQ(scene.rig.poses.size(), 3u);
+  EXPECT_EQ(scene.rig.poses[1].time_ns, 100'000'000);
+  EXPECT_EQ(scene.rig.poses[1].T_world_body.translation().x(), 1.5);
+  EXPECT_EQ(scene.rig.poses[2].time_ns, 300'000'000);
+}
+
+TEST_F(RigFilesTest, WhatIsNoPoseIsNamedWithItsLine) {
+  for (const char* line :
+       {"2.000000000zzz 0 0 0 0 0 0 1", "2, 0 0 0 0 0 0 1", "2,5 0 0 0 0 0 0 1", "2 0-1 0 0 0 0 1",
+        "2 0x1 0 0 0 0 0 1", "2 nan 0 0 0 0 0 1", "2 0 0 0 0 0 0 1 5",
+        "1403636579763555584 0 0 0 0 0 0 1", "2 0 0 0 0 0 0 0"}) {
+    Put("way.txt", std::string("# first\n1 0 0 0 0 0 0 1\n") + line + "\n");
+    EXPECT_THAT(WhyNot("trajectory: way.txt"), HasSubstr("way.txt:3: ")) << line;
+  }
+  Put("way.txt", "1 0 0 0 0 0 0 1 \x1b[2J\n");
+  EXPECT_THAT(WhyNot("trajectory: way.txt"), testing::Not(HasSubstr("\x1b")));
+  Put("way.txt", std::string(100'000, '1'));
+  EXPECT_THAT(WhyNot("trajectory: way.txt"), HasSubstr("way.txt:1: a line of 100000 bytes"));
+  EXPECT_THAT(WhyNot("trajectory: ."), HasSubstr("is a folder"));
+  EXPECT_THAT(WhyNot("trajectory: /dev/zero"), HasSubstr("is a device"));
+}
+
 }  // namespace
 }  // namespace aisle::sim

@@ -98,6 +98,14 @@ TEST_F(KeptLight, ThatIsDamagedAnywhereIsNone) {
   EXPECT_TRUE(LoadLight(folder_, 7, 60));
 }
 
+/// The checksum would tell, but after all that the header speaks of has been made room for.
+TEST_F(KeptLight, ThatIsOfAnotherSizeThanItSaysIsNone) {
+  SaveLight(folder_, 7, Random(3, 60));
+  const fs::path file = OnlyFile();
+  std::ofstream(file, std::ios::binary | std::ios::app) << "more";
+  EXPECT_FALSE(LoadLight(folder_, 7, 60));
+}
+
 TEST_F(KeptLight, InAFolderThatCannotBeIsNoError) {
   std::ofstream(folder_.string()) << "a file where the folder should be";
   EXPECT_NO_THROW(SaveLight(folder_, 1, Random(5, 10)));
