@@ -1,5 +1,6 @@
 #include "harness/bag/bag_calibration.h"
 
+#include "harness/contract/rigid.h"
 #include "harness/io/input_error.h"
 #include "harness/ros/definition.h"
 #include "harness/ros/sensor.h"
@@ -37,6 +38,36 @@ bool IsCutOut(const ros::CameraInfo& info) {
          !is_whole(roi.height, info.height);
 }
 
+/// No camera's numbers lie beyond, with focal lengths and principal points in pixels: what does is
+/// a slip, and would only be seen in what is made of it.
+constexpr double kLeastFocal_px = 0.1, kMostStated = 1e6;
+
+/// Refuses what CameraInfo's field of this name states.
+[[noreturn]] void Refuse(const std::string& topic, const std::string& stated,
+                         const std::string& file) {
+  throw InputError(file, 0, fmt::format("{} states {}: {}", topic, stated, kCalibrationCure));
+}
+
+void CheckNumbers(std::span<const double> numbers, const char* field, const std::string& topic,
+                  const std::string& file) {
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (std::abs(numbers[i]) <= kMostStated) continue;
+    Refuse(topic,
+           fmt::format("{}[{}] as {:g}, which must be finite and at most {:g}", field, i,
+                       numbers[i], kMostStated),
+           file);
+  }
+}
+
+void CheckFocal(double fx, double fy, const char* field, const std::string& topic,
+                const std::string& file) {
+  if (std::min(fx, fy) >= kLeastFocal_px) return;
+  Refuse(topic,
+         fmt::format("focal lengths of {:g} and {:g} pixels in {}, which must be at least {:g}", fx,
+                     fy, field, kLeastFocal_px),
+         file);
+}
+
 ros::CameraInfo InfoOf(const Bag& bag, const std::string& image_topic, const std::string& file) {
   const std::string topic = CameraInfoTopicOf(image_topic);
   const auto info = FirstMessage<ros::CameraInfo>(bag, topic, file);
@@ -44,12 +75,14 @@ ros::CameraInfo InfoOf(const Bag& bag, const std::string& image_topic, const std
     throw InputError(file, 0,
                      fmt::format("has no {} beside {}: {}", topic, image_topic, kCalibrationCure));
   }
+  CheckNumbers(info->p, "p", topic, file);
   if (!(info->p[0] > 0) || !(info->p[5] > 0)) {
     throw InputError(
         file, 0,
         fmt::format("{} states that the camera is not calibrated (p begins with {:g}): {}", topic,
                     info->p[0], kCalibrationCure));
   }
+  CheckFocal(info->p[0], info->p[5], "p", topic, file);
   if (info->binning_x > 1 || info->binning_y > 1 || IsCutOut(*info)) {
     throw InputError(
         file, 0,
@@ -147,6 +180,9 @@ CameraCalibration Rectified(const ros::CameraInfo& info) {
 /// As built: k and d.
 CameraCalibration Raw(const ros::CameraInfo& info, const std::string& topic,
                       const std::string& file) {
+  CheckNumbers(info.k, "k", CameraInfoTopicOf(topic), file);
+  CheckNumbers(info.d, "d", CameraInfoTopicOf(topic), file);
+  CheckFocal(info.k[0], info.k[4], "k", CameraInfoTopicOf(topic), file);
   CameraCalibration camera = PinholeOf(info, {info.k[0], info.k[4], info.k[2], info.k[5]});
   camera.equidistant = info.distortion_model == "equidistant" || info.distortion_model == "fisheye";
   const std::size_t n = info.d.size();
@@ -154,7 +190,7 @@ CameraCalibration Raw(const ros::CameraInfo& info, const std::string& topic,
   const bool known = camera.equidistant || info.distortion_model.empty() ||
                      info.distortion_model == "plumb_bob" ||
                      info.distortion_model == "rational_polynomial";
-  if (!known || !fits || !(camera.fx > 0) || !(camera.fy > 0)) {
+  if (!known || !fits) {
     throw InputError(file, 0,
                      fmt::format("{}: unsupported distortion '{}' with {} coefficients; supported: "
                                  "plumb_bob (5), rational_polynomial (8) and equidistant (4)",
@@ -164,12 +200,28 @@ CameraCalibration Raw(const ros::CameraInfo& info, const std::string& topic,
   return camera;
 }
 
-StatedRectification StatedOf(const ros::CameraInfo& info) {
+void CheckStated(const StatedRectification& stated, const std::string& topic,
+                 const std::string& file) {
+  constexpr double kRounded = 1e-3;  // as numbers of a few digits are
+  Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
+  turn.linear() = stated.R_rectified_camera;
+  if (!IsRigid(turn, kRounded)) Refuse(topic, "an r that is not a rotation", file);
+  // Of another one there may be no inverse, and calibrations have no place for a skew.
+  const Eigen::Matrix3d P = stated.projection.leftCols<3>();
+  if (P(0, 1) != 0 || P(1, 0) != 0 || P.row(2) != Eigen::RowVector3d(0, 0, 1)) {
+    Refuse(topic, "a p that is not a pinhole's: its first columns must be fx 0 cx, 0 fy cy and 0 0 1",
+           file);
+  }
+}
+
+StatedRectification StatedOf(const ros::CameraInfo& info, const std::string& topic,
+                             const std::string& file) {
   StatedRectification stated;
   for (int i = 0; i < 9; ++i)
     stated.R_rectified_camera(i / 3, i % 3) = info.r[static_cast<std::size_t>(i)];
   for (int i = 0; i < 12; ++i)
     stated.projection(i / 4, i % 4) = info.p[static_cast<std::size_t>(i)];
+  CheckStated(stated, CameraInfoTopicOf(topic), file);
   return stated;
 }
 
@@ -193,7 +245,7 @@ StereoCameras CamerasOfBag(const Bag& bag, const StereoTopics& topics,
   if (asked_baseline_m) right.p[3] = -right.p[0] * baseline_m;
   cameras.left = Raw(left, topics.left, file);
   cameras.right = Raw(right, topics.right, file);
-  cameras.stated = {StatedOf(left), StatedOf(right)};
+  cameras.stated = {StatedOf(left, topics.left, file), StatedOf(right, topics.right, file)};
   return cameras;
 }
 

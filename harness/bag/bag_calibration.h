@@ -9,8 +9,8 @@
 namespace aisle {
 
 /// What the camera_info beside two image topics says of the rig. `baseline_m` counts instead of
-/// theirs. Throws InputError: none there, not calibrated, binned, a baseline that is missing or has
-/// the wrong sign, with what the bag's /tf_static says of it.
+/// theirs. Throws InputError: none there, not calibrated, binned, numbers that no camera has, a
+/// baseline that is missing or has the wrong sign, with what the bag's /tf_static says of it.
 StereoCameras CamerasOfBag(const Bag& bag, const StereoTopics& topics,
                            std::optional<double> baseline_m, const std::string& file);
 

@@ -1,11 +1,15 @@
 #include "harness/bag/bag_trajectory.h"
 
+#include "harness/contract/rigid.h"
 #include "harness/io/input_error.h"
 #include "harness/io/nearest_word.h"
 #include "harness/ros/geometry.h"
 
 namespace aisle {
 namespace {
+
+// A trajectory of a bag reaches as far as one of a file.
+static_assert(ros::kMostCoordinate_m == kFarthest_m);
 
 struct Poses {
   std::map<std::int64_t, Eigen::Isometry3d> by_stamp;

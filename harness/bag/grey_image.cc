@@ -3,12 +3,15 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "harness/bag/picture_size.h"
 #include "harness/ros/cdr.h"
 
 namespace aisle {
 namespace {
 
 constexpr std::uint32_t kMostSide = 16384;
+/// Of a compressed image, which is short however many they are.
+constexpr std::uint64_t kMostPixels = std::uint64_t{64} << 20;
 constexpr int kAsItIs = -1;  ///< no conversion
 constexpr int kUpperByte = -2;
 
@@ -65,9 +68,7 @@ std::string PackedEncoding(const std::string& format) {
   return end == std::string::npos ? "" : format.substr(0, end);
 }
 
-}  // namespace
-
-cv::Mat1b GreyImage(const ros::Image& message) {
+cv::Mat1b Grey(const ros::Image& message) {
   const Encoding& encoding = EncodingOf(message.encoding);
   const std::size_t row = message.width * static_cast<std::size_t>(CV_ELEM_SIZE(encoding.type));
   const std::size_t needed =
@@ -77,6 +78,11 @@ cv::Mat1b GreyImage(const ros::Image& message) {
     throw ros::CdrError(fmt::format("states {}x{} {} in rows of {} bytes, but has {}",
                                     message.width, message.height, message.encoding, message.step,
                                     message.data.size()));
+  }
+  if (message.step % CV_ELEM_SIZE1(encoding.type) != 0) {
+    throw ros::CdrError(
+        fmt::format("states rows of {} bytes, which is not a whole number of {} values", message.step,
+                    message.encoding));
   }
   const auto size = cv::Size(static_cast<int>(message.width), static_cast<int>(message.height));
   const cv::Mat image(size, encoding.type, const_cast<unsigned char*>(message.data.data()),
@@ -89,11 +95,17 @@ cv::Mat1b GreyImage(const ros::Image& message) {
   return grey;
 }
 
-cv::Mat1b GreyImage(const ros::CompressedImage& message) {
+cv::Mat1b Grey(const ros::CompressedImage& message) {
   if (message.data.empty()) throw ros::CdrError("is empty");
+  const auto [width, height] = SizeOfPicture(message.data);
+  if (width > kMostSide || height > kMostSide || std::uint64_t{width} * height > kMostPixels) {
+    throw ros::CdrError(fmt::format("states {}x{} pixels, at most {} a side and {} in all are read",
+                                    width, height, kMostSide, kMostPixels));
+  }
   cv::Mat image;
   try {
-    image = cv::imdecode(message.data, cv::IMREAD_UNCHANGED);
+    // OpenCV has decoders of many more kinds, which no recorder of images needs.
+    if (width > 0 && height > 0) image = cv::imdecode(message.data, cv::IMREAD_UNCHANGED);
   } catch (const cv::Exception&) {  // told like any other that cannot be decoded
   }
   if (image.empty()) {
@@ -109,5 +121,21 @@ cv::Mat1b GreyImage(const ros::CompressedImage& message) {
   if (image.type() == CV_8UC4) return ToGrey(image, EncodingOf("bgra8"));
   throw ros::CdrError("unsupported kind of pixels");
 }
+
+/// What OpenCV refuses (pairs of pixels in rows of an odd length) is the message's fault.
+template <class T>
+cv::Mat1b GreyOrCdrError(const T& message) {
+  try {
+    return Grey(message);
+  } catch (const cv::Exception& error) {
+    throw ros::CdrError("cannot be turned into grey: " + error.err);
+  }
+}
+
+}  // namespace
+
+cv::Mat1b GreyImage(const ros::Image& message) { return GreyOrCdrError(message); }
+
+cv::Mat1b GreyImage(const ros::CompressedImage& message) { return GreyOrCdrError(message); }
 
 }  // namespace aisle

@@ -18,9 +18,13 @@ namespace {
 using mcap::Fields;
 using mcap::Op;
 
-constexpr std::uint64_t kMostChunk = std::uint64_t{1} << 30;
-constexpr std::size_t kMessageHead = 22;  ///< channel, sequence, two stamps
-constexpr std::size_t kStampBytes = 12;   ///< encapsulation, seconds, nanoseconds
+constexpr std::uint64_t kMiB = std::uint64_t{1} << 20;
+/// Unpacked; recorders make chunks of some megabytes, and a few bytes can claim any length.
+constexpr std::uint64_t kMostChunk = 256 * kMiB;
+constexpr std::uint64_t kMostKept = 256 * kMiB;  ///< of unpacked chunks, for the next reading
+constexpr std::size_t kMostKeptChunks = 4;       ///< topics that are read side by side
+constexpr std::size_t kMessageHead = 22;         ///< channel, sequence, two stamps
+constexpr std::size_t kStampBytes = 12;          ///< encapsulation, seconds, nanoseconds
 /// Place of entries that stand in no chunk, or in one that is not compressed: their offset is the
 /// file's. Else the place is the chunk's number.
 constexpr std::uint64_t kInFile = ~std::uint64_t{0};
@@ -203,12 +207,16 @@ class McapFile : public Bag {
     chunk.method = fields.Text();
     chunk.size = fields.Get<std::uint64_t>();
     chunk.offset = body + (bytes.size() - fields.rest().size());
-    if (chunk.size > size - (bytes.size() - fields.rest().size()) || chunk.raw_size > kMostChunk) {
-      throw std::out_of_range("chunk");
-    }
+    if (chunk.size > size - (bytes.size() - fields.rest().size())) throw std::out_of_range("chunk");
     chunks_.push_back(chunk);
     // One without compression and checksum, as rosbag2 writes them, is read where it stands.
     if (chunk.method.empty() && chunk.crc == 0) return ScanInFile(chunk);
+    if (chunk.raw_size > kMostChunk) {
+      throw InputError(path_, 0,
+                       fmt::format("chunk {} is {} MiB long when unpacked, at most {} are read; "
+                                   "write it again with smaller chunks, as `mcap compress` does",
+                                   chunks_.size() - 1, chunk.raw_size / kMiB, kMostChunk / kMiB));
+    }
     const std::uint64_t number = chunks_.size() - 1;
     const auto records = Chunk(number);
     std::uint64_t at = 0;
@@ -238,6 +246,16 @@ class McapFile : public Bag {
     }
   }
 
+  /// Forgets the chunks that were read longest ago, until one of this length has its place.
+  void MakeRoom(std::uint64_t size) const {
+    const auto is_full = [&] {
+      std::uint64_t kept = size;
+      for (const Kept& one : kept_) kept += one.records->size();
+      return kept > kMostKept || kept_.size() >= kMostKeptChunks;
+    };
+    while (!kept_.empty() && is_full()) kept_.pop_back();
+  }
+
   /// The records of a chunk, unpacked and checked; the latest few are kept.
   std::shared_ptr<const std::string> Chunk(std::uint64_t number) const {
     const std::lock_guard lock(mutex_);
@@ -247,6 +265,7 @@ class McapFile : public Bag {
       return kept_.front().records;
     }
     const Packed& chunk = chunks_.at(number);
+    MakeRoom(chunk.raw_size);  // before it is there, not after
     std::shared_ptr<const std::string> records;
     try {
       records = std::make_shared<const std::string>(
@@ -260,9 +279,7 @@ class McapFile : public Bag {
                                    "file again, or `mcap recover` it",
                                    number));
     }
-    constexpr std::size_t kMostKept = 4;
     kept_.push_front({number, records});
-    if (kept_.size() > kMostKept) kept_.pop_back();
     return records;
   }
 

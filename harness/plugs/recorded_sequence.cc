@@ -4,6 +4,7 @@
 #include <opencv2/core/eigen.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "harness/contract/rigid.h"
 #include "harness/io/image.h"
 #include "harness/io/input_error.h"
 #include "harness/plugs/wheel_motion.h"
@@ -139,6 +140,13 @@ Rectification Rectify(const StereoCameras& cameras) {
   return result;
 }
 
+void CheckSize(const cv::Mat1b& image, const std::filesystem::path& file, int width, int height) {
+  if (image.cols == width && image.rows == height) return;
+  throw InputError(file.string(), 0,
+                   fmt::format("has {}x{} pixels, but the calibration is for {}x{}", image.cols,
+                               image.rows, width, height));
+}
+
 class RecordedSequence : public Sequence {
  public:
   RecordedSequence(StereoRecording recording, std::string name)
@@ -150,6 +158,9 @@ class RecordedSequence : public Sequence {
         camera->height = first.rows;
       }
     }
+    // Before the maps: they are as large as the calibration says.
+    CheckSize(first, recording_.pairs.front().left, recording_.cameras.left.width,
+              recording_.cameras.left.height);
     rectification_ = Rectify(recording_.cameras);
     T_body_rig_ = recording_.cameras.left.T_body_camera;
     T_body_rig_.linear() = T_body_rig_.linear() * rectification_.R_left_rectified;
@@ -210,12 +221,10 @@ class RecordedSequence : public Sequence {
  private:
   cv::Mat1b Read(std::size_t index, int side) const {
     const cv::Mat1b image = recording_.read_image(index, side);
-    const StereoCalibration& c = rectification_.calibration;
-    if (image.cols == c.width && image.rows == c.height) return image;
     const StereoRecording::Pair& pair = recording_.pairs[index];
-    throw InputError((side == 0 ? pair.left : pair.right).string(), 0,
-                     fmt::format("has {}x{} pixels, but the calibration is for {}x{}", image.cols,
-                                 image.rows, c.width, c.height));
+    CheckSize(image, side == 0 ? pair.left : pair.right, rectification_.calibration.width,
+              rectification_.calibration.height);
+    return image;
   }
 
   /// Truth names the body; the rig is the rectified left camera.
@@ -244,14 +253,26 @@ class RecordedSequence : public Sequence {
   std::map<std::int64_t, StampedPose> truth_by_stamp_;
 };
 
-/// Of the common plane: depth comes from the baseline, to the right.
+/// Of the common plane: a pinhole in pixels, and depth comes from the baseline, to the right.
 void CheckRectified(const StereoCalibration& rig, const std::string& source) {
-  if (rig.fx > 0 && rig.fy > 0 && rig.baseline_m > 0 && std::isfinite(rig.baseline_m)) return;
+  constexpr double kLeastFocal_px = 0.1, kMost_px = 1e6;
+  const bool has_focal =
+      std::min(rig.fx, rig.fy) >= kLeastFocal_px && rig.fx <= kMost_px && rig.fy <= kMost_px;
+  if (!has_focal || !(std::abs(rig.cx) <= kMost_px) || !(std::abs(rig.cy) <= kMost_px)) {
+    throw InputError(
+        source, 0,
+        fmt::format("according to its calibration the rectified camera has the focal lengths {:g} "
+                    "and {:g} and the principal point {:g} {:g}: expected pixels, {:g} to {:g} and "
+                    "within {:g} of the image's corner",
+                    rig.fx, rig.fy, rig.cx, rig.cy, kLeastFocal_px, kMost_px, kMost_px));
+  }
+  if (rig.baseline_m > 0 && rig.baseline_m <= kFarthest_m) return;
   throw InputError(
       source, 0,
       fmt::format("according to its calibration the right camera is {:g} m to the right of the "
-                  "left one, which must be greater than 0{}",
-                  rig.baseline_m, rig.baseline_m < 0 ? ": left and right are swapped" : ""));
+                  "left one, which must be greater than 0 and at most {:g}{}",
+                  rig.baseline_m, kFarthest_m,
+                  rig.baseline_m < 0 ? ": left and right are swapped" : ""));
 }
 
 /// Systems are promised that stamps rise.

@@ -19,6 +19,12 @@ Eigen::Isometry3d Isometry(const Eigen::Vector3d& place, const Quaternion& turn)
     throw CdrError(
         "has an invalid pose: a number is not finite, or its quaternion is not a rotation");
   }
+  if (place.cwiseAbs().maxCoeff() > kMostCoordinate_m) {
+    throw CdrError(
+        fmt::format("has an invalid pose: the position {:g} {:g} {:g} is further than {:g} m from "
+                    "the origin; expected metres",
+                    place.x(), place.y(), place.z(), kMostCoordinate_m));
+  }
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.linear() = q.normalized().toRotationMatrix();
   pose.translation() = place;

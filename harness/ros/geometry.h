@@ -239,13 +239,17 @@ struct Path {
   }
 };
 
+/// No coordinate of a pose is further from the origin: as of trajectories in files
+/// (contract/rigid.h, which this room does not see; bag_trajectory.cc holds the two together).
+inline constexpr double kMostCoordinate_m = 1e8;
+
 Time TimeOf(std::int64_t stamp_ns);
 Duration DurationOf(std::int64_t duration_ns);
 std::int64_t NanosecondsOf(const Time& time);
 Pose PoseOf(const Eigen::Isometry3d& T_frame_body);
 Transform TransformOf(const Eigen::Isometry3d& T_parent_child);
-/// Rotation normalised. Throws CdrError where a number is not finite or the quaternion's norm is
-/// not 1 within 5 %.
+/// Rotation normalised. Throws CdrError where a number is not finite, a coordinate is beyond
+/// kMostCoordinate_m, or the quaternion's norm is not 1 within 5 %.
 Eigen::Isometry3d IsometryOf(const Pose& pose);
 Eigen::Isometry3d IsometryOf(const Transform& transform);
 

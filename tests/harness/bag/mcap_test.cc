@@ -7,6 +7,7 @@
 
 #include "harness/bag/bag.h"
 #include "harness/bag/compression.h"
+#include "harness/bag/mcap_records.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/ros/geometry.h"
@@ -120,6 +121,62 @@ TEST_F(McapTest, DamageIsSeen) {
   EXPECT_THAT(WhyNot(Put(bytes)), HasSubstr("checksum"));
   EXPECT_THAT(WhyNot(Put("no bag")), HasSubstr("not an MCAP file"));
   EXPECT_THAT(WhyNot(folder_ / "none.mcap"), HasSubstr("no such file"));
+}
+
+/// A chunk as another recorder may write it: without a checksum.
+std::string ChunkRecord(std::uint64_t raw_size, const std::string& method,
+                        const std::string& records) {
+  std::string body;
+  mcap::Put(std::uint64_t{0}, &body);
+  mcap::Put(std::uint64_t{0}, &body);
+  mcap::Put(raw_size, &body);
+  mcap::Put(std::uint32_t{0}, &body);
+  mcap::PutText(method, &body);
+  mcap::Put(static_cast<std::uint64_t>(records.size()), &body);
+  std::string record;
+  mcap::PutRecord(mcap::Op::kChunk, body + records, &record);
+  return record;
+}
+
+TEST_F(McapTest, AChunkThatClaimsMuchMemoryIsNamed) {
+  const auto claiming = [&](std::uint64_t size) {
+    return WhyNot(
+        Put(std::string(mcap::kMagic) + ChunkRecord(size, "zstd", std::string(1 << 16, 'x'))));
+  };
+  const std::uint64_t most = std::uint64_t{256} << 20;
+  EXPECT_THAT(claiming(2 * most), testing::AllOf(HasSubstr("chunk 0 is 512 MiB long"),
+                                                 HasSubstr("at most 256"), HasSubstr("mcap")));
+  EXPECT_THAT(claiming(~std::uint64_t{0}), HasSubstr("at most 256"));
+  EXPECT_THAT(claiming(most), HasSubstr("damaged")) << "allowed, but these are no records";
+}
+
+/// Chunks of which the reader may keep one alone, read to and fro.
+TEST_F(McapTest, LargeChunksAreReadAgainWhenTheyAreAskedForAgain) {
+  const std::size_t size = std::size_t{130} << 20;
+  std::string bytes(mcap::kMagic);
+  std::string channel;
+  mcap::Put(std::uint16_t{1}, &channel);
+  mcap::Put(std::uint16_t{0}, &channel);
+  mcap::PutText("/a", &channel);
+  mcap::PutText("cdr", &channel);
+  mcap::PutMap({}, &channel);
+  mcap::PutRecord(mcap::Op::kChannel, channel, &bytes);
+  for (const char letter : {'a', 'b'}) {
+    std::string message, records;
+    mcap::Put(std::uint16_t{1}, &message);
+    message.append(4 + 8 + 8, '\0');  // sequence, two stamps
+    message.append(100, letter);
+    mcap::PutRecord(mcap::Op::kMessage, message, &records);
+    const std::size_t rest = size - records.size() - mcap::kHeadBytes;
+    mcap::PutRecord(mcap::Op::kMessageIndex, std::string(rest, '\0'), &records);
+    bytes += ChunkRecord(records.size(), "zstd", CompressZstd(records, 1));
+  }
+  mcap::PutRecord(mcap::Op::kDataEnd, std::string(4, '\0'), &bytes);
+  const auto bag = OpenBag(Put(bytes));
+  ASSERT_EQ(bag->entries().size(), 2u);
+  for (const std::size_t i : {0u, 1u, 0u, 1u}) {
+    EXPECT_EQ(bag->Read(bag->entries()[i]), std::string(100, i == 0 ? 'a' : 'b'));
+  }
 }
 
 TEST_F(McapTest, Lz4FramesAreRead) {

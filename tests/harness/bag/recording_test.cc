@@ -9,6 +9,7 @@
 #include "harness/bag/drive_bag.h"
 #include "harness/bag/frame_messages.h"
 #include "harness/bag/grey_image.h"
+#include "harness/bag/picture_size.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
 
@@ -223,6 +224,53 @@ TEST_F(RecordingTest, WhatElseIsMissingIsNamed) {
   EXPECT_THAT(WhyNot(uncalibrated), HasSubstr("not calibrated"));
 }
 
+TEST_F(RecordingTest, NumbersThatNoRectifiedCameraHasAreNamed) {
+  for (const double wrong : {std::nan(""), HUGE_VAL, 1e300}) {
+    for (const std::size_t place : {0, 2, 5, 6}) {  // fx, cx, fy, cy
+      RobotBag bag;
+      bag.right_info.p[place] = wrong;
+      EXPECT_THAT(WhyNot(bag),
+                  testing::AllOf(HasSubstr("/front/right/camera_info states"),
+                                 HasSubstr(fmt::format("{:g}", wrong)), HasSubstr("--calibration")))
+          << place;
+    }
+  }
+  RobotBag bag;
+  bag.right_info.p[3] = std::nan("");
+  EXPECT_THAT(WhyNot(bag), HasSubstr("p[3] as nan"));
+}
+
+TEST_F(RecordingTest, NumbersThatNoRawCameraHasAreNamed) {
+  RobotBag good;
+  good.left = "/front/left/image_raw";
+  good.right = "/front/right/image_raw";
+  good.left_info.d = good.right_info.d = {-0.3, 0.1, 0, 0, 0};
+  EXPECT_EQ(WhyNot(good), "");
+  const auto why_not = [&](const auto& spoil) {
+    RobotBag bag = good;
+    spoil(&bag.left_info);
+    return WhyNot(bag);
+  };
+  for (const double wrong : {std::nan(""), HUGE_VAL, 1e300}) {
+    const auto named = [&](const std::string& field) {
+      return testing::AllOf(HasSubstr("/front/left/camera_info states"), HasSubstr(field),
+                            HasSubstr("--calibration"));
+    };
+    EXPECT_THAT(why_not([&](auto* info) { info->d[1] = wrong; }), named("d[1]"));
+    EXPECT_THAT(why_not([&](auto* info) { info->k[0] = wrong; }), named("k[0]"));
+    EXPECT_THAT(why_not([&](auto* info) { info->k[2] = wrong; }), named("k[2]"));
+    EXPECT_THAT(why_not([&](auto* info) { info->r[4] = wrong; }), named("not a rotation"));
+    EXPECT_THAT(why_not([&](auto* info) { info->p[6] = wrong; }), named("p[6]"));
+  }
+  const auto is_no_rotation = HasSubstr("r that is not a rotation");
+  EXPECT_THAT(why_not([](auto* info) { info->r = {}; }), is_no_rotation);
+  EXPECT_THAT(why_not([](auto* info) { info->r[8] = -1; }), is_no_rotation) << "a reflection";
+  EXPECT_THAT(why_not([](auto* info) { info->r[1] = 0.01; }), is_no_rotation);
+  EXPECT_EQ(why_not([](auto* info) { info->r[1] = 1e-4; }), "") << "rounded when written";
+  EXPECT_THAT(why_not([](auto* info) { info->k[4] = 0; }), HasSubstr("focal lengths"));
+  EXPECT_THAT(why_not([](auto* info) { info->p[10] = 0; }), HasSubstr("0 0 1"));
+}
+
 /// RegionOfInterest.msg: the whole picture is said by zeros, or by its own size.
 TEST_F(RecordingTest, OnlyAPartOfThePictureIsCutOut) {
   const auto with = [](const ros::RegionOfInterest& roi) {
@@ -291,6 +339,43 @@ TEST(GreyImage, RowsMayHaveGapsAndMustBeThere) {
   EXPECT_THROW(GreyImage(message), ros::CdrError);
 }
 
+TEST(GreyImage, RowsBeginWithAWholeValue) {
+  ros::Image wide = ImageMessage({}, cv::Mat1w(4, 4, std::uint16_t{0x1234}));
+  wide.data.resize(200);
+  for (const std::uint8_t is_bigendian : {std::uint8_t{0}, std::uint8_t{1}}) {
+    wide.is_bigendian = is_bigendian;
+    wide.step = 10;
+    EXPECT_NO_THROW(GreyImage(wide));
+    wide.step = 9;
+    EXPECT_THROW(GreyImage(wide), ros::CdrError) << "within a value";
+    wide.step = 7;
+    EXPECT_THROW(GreyImage(wide), ros::CdrError) << "shorter than a row";
+  }
+  ros::Image colour = ImageMessage({}, cv::Mat3b(4, 4, cv::Vec3b(1, 2, 3)));
+  colour.step += 1;
+  colour.data.resize(200);
+  EXPECT_NO_THROW(GreyImage(colour)) << "a value is a byte here";
+}
+
+/// Pixels that share their colour in pairs, in rows of an odd length; a mosaic of one pixel.
+TEST(GreyImage, WhatOpenCvRefusesIsTheMessagesFault) {
+  for (const char* encoding : {"yuv422", "yuyv", "bayer_rggb8"}) {
+    for (const std::uint32_t side : {1u, 3u}) {
+      ros::Image message;
+      message.encoding = encoding;
+      message.width = message.height = side;
+      message.step = 2 * side;
+      message.data.resize(std::size_t{2} * side * side);
+      try {
+        GreyImage(message);
+      } catch (const ros::CdrError&) {
+      } catch (const std::exception& error) {
+        ADD_FAILURE() << encoding << ": " << error.what();
+      }
+    }
+  }
+}
+
 TEST(GreyImage, CompressedImagesAreRead) {
   const cv::Mat1b image = Picture(4);
   ros::CompressedImage message;
@@ -299,6 +384,60 @@ TEST(GreyImage, CompressedImagesAreRead) {
   EXPECT_EQ(cv::norm(GreyImage(message), image, cv::NORM_INF), 0);
   message.data.resize(20);
   EXPECT_THROW(GreyImage(message), ros::CdrError);
+}
+
+std::string WhyNotGrey(const std::vector<std::uint8_t>& bytes) {
+  ros::CompressedImage message;
+  message.format = "png";
+  message.data = bytes;
+  try {
+    GreyImage(message);
+  } catch (const ros::CdrError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(GreyImage, CompressedImagesOfOtherKindsAreRefused) {
+  const auto why_not = [](const char* ending) {
+    std::vector<std::uint8_t> bytes;
+    EXPECT_TRUE(cv::imencode(ending, Picture(4), bytes)) << ending;
+    return WhyNotGrey(bytes);
+  };
+  for (const char* read : {".png", ".jpg"}) EXPECT_EQ(why_not(read), "") << read;
+  for (const char* other : {".pgm", ".bmp"}) {
+    EXPECT_THAT(why_not(other), HasSubstr("PNG and JPEG are supported")) << other;
+  }
+}
+
+TEST(GreyImage, ACompressedImageIsNotDecodedBeforeItsSizeIsKnown) {
+  std::vector<std::uint8_t> png, jpeg;
+  cv::imencode(".png", Picture(4), png);
+  cv::imencode(".jpg", Picture(4), jpeg);
+  png[18] = png[22] = 64;  // 16416 x 16408, of IHDR
+  EXPECT_THAT(WhyNotGrey(png), HasSubstr("states 16416x16408 pixels"));
+  png[18] = png[22] = 36;  // each side would do
+  EXPECT_THAT(WhyNotGrey(png), HasSubstr("states 9248x9240 pixels"));
+  const std::array<std::uint8_t, 2> frame = {0xFF, 0xC0};
+  const auto found = std::ranges::search(jpeg, frame).begin();
+  ASSERT_NE(found, jpeg.end());
+  found[5] = found[7] = 64;
+  EXPECT_THAT(WhyNotGrey(jpeg), HasSubstr("states 16416x16408 pixels"));
+}
+
+TEST(SizeOfPictureTest, IsTheDecodersAtEveryCut) {
+  for (const char* ending : {".png", ".jpg"}) {
+    std::vector<std::uint8_t> bytes;
+    cv::imencode(ending, Picture(4), bytes);
+    if (bytes[0] == 0xFF) bytes.insert(bytes.begin() + 2, {0xFF, 0xFF, 0x01, 0xFF});  // B.1.1.2
+    for (std::size_t length = 0; length <= bytes.size(); ++length) {
+      const PictureSize size = SizeOfPicture(std::span(bytes).first(length));
+      if (size.width == 0 && length < bytes.size()) continue;
+      EXPECT_EQ(size.width, 32u) << ending << length;
+      EXPECT_EQ(size.height, 24u) << ending << length;
+    }
+    EXPECT_EQ(WhyNotGrey(bytes), "") << ending;
+  }
 }
 
 TEST_F(RecordingTest, TrajectoriesOfEveryTypeComeOut) {

@@ -227,6 +227,14 @@ TEST_F(Recording, OfAnImageThatDoesNotFitItsCalibrationIsRefused) {
   EXPECT_THROW(OpenRecording(folder_, DatasetFormat::kEuroc), InputError);
 }
 
+/// What rectifies them would be as large as the calibration claims.
+TEST_F(Recording, IsNotRectifiedBeforeItsImagesFit) {
+  std::array<Camera, 2> bent = Parallel();
+  bent[0].bend = bent[1].bend = {-0.2, 0.05, 0, 0};
+  Write(bent, {{cv::Mat1b(100, 100, std::uint8_t{9}), Noise(2)}});
+  EXPECT_THROW(OpenRecording(folder_, DatasetFormat::kEuroc), InputError);
+}
+
 TEST_F(Recording, OfACalibrationThatIsNoneIsRefusedByName) {
   const auto complaint = [&](const std::array<Camera, 2>& cameras) -> std::string {
     Write(cameras, {{Noise(1), Noise(2)}});
@@ -247,7 +255,7 @@ TEST_F(Recording, OfACalibrationThatIsNoneIsRefusedByName) {
   EXPECT_THAT(complaint({}), HasSubstr("is 0 m to the right"));
   std::array<Camera, 2> blind = Parallel();
   blind[1].fx = 0;
-  EXPECT_THAT(complaint(blind), HasSubstr("focal lengths 0 and 200"));
+  EXPECT_THAT(complaint(blind), HasSubstr("intrinsics 0, 200"));
 }
 
 TEST_F(Recording, WhoseStampsDoNotRiseIsRefused) {

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <limits>
+
 #include "harness/ros/cdr.h"
 #include "harness/ros/drawing.h"
 #include "harness/ros/geometry.h"
@@ -115,6 +117,17 @@ TEST(RoundTripOfPoses, KeepsThePlaceAndTheTurn) {
       RC_ASSERT(back.linear().isApprox(pose.linear(), 1e-14));
     }
   }));
+}
+
+TEST(PosesOfMessages, AreFiniteAndWithinReach) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (const double far_m : {1e8, -1e8}) {
+    EXPECT_EQ(IsometryOf(Pose{.position = {.y = far_m}}).translation().y(), far_m);
+  }
+  for (const double beyond_m : {1.001e8, -1.001e8, 1e200, kInfinity, -kInfinity, std::nan("")}) {
+    EXPECT_THROW(IsometryOf(Pose{.position = {.x = beyond_m}}), CdrError) << beyond_m;
+    EXPECT_THROW(IsometryOf(Transform{.translation = {.z = beyond_m}}), CdrError) << beyond_m;
+  }
 }
 
 }  // namespace

@@ -1,0 +1,65 @@
+#include "harness/bag/picture_size.h"
+
+#include <algorithm>
+#include <array>
+
+namespace aisle {
+namespace {
+
+using Bytes = std::span<const std::uint8_t>;
+
+std::uint32_t BigEndian(Bytes bytes) {
+  std::uint32_t value = 0;
+  for (const std::uint8_t byte : bytes) value = value << 8 | byte;
+  return value;
+}
+
+bool BeginsWith(Bytes bytes, Bytes beginning) {
+  return bytes.size() >= beginning.size() &&
+         std::equal(beginning.begin(), beginning.end(), bytes.begin());
+}
+
+/// The signature, and the chunk IHDR, which must be the first.
+PictureSize SizeOfPng(Bytes bytes) {
+  constexpr std::array<std::uint8_t, 16> kBeginning = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n',
+                                                       0,    0,   0,   13,  'I',  'H',  'D',  'R'};
+  if (bytes.size() < 24 || !BeginsWith(bytes, kBeginning)) return {};
+  return {BigEndian(bytes.subspan(16, 4)), BigEndian(bytes.subspan(20, 4))};
+}
+
+/// ITU T.81, B.1.1.3: markers that begin a frame; the others of C0 to CF define tables.
+bool IsFrame(std::uint8_t marker) {
+  return marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
+}
+
+/// TEM and RSTn have no length behind them.
+bool StandsAlone(std::uint8_t marker) {
+  return marker == 0x01 || (marker >= 0xD0 && marker <= 0xD7);
+}
+
+/// Segment after segment, up to the frame's: a thumbnail's frame lies within a segment.
+PictureSize SizeOfJpeg(Bytes bytes) {
+  constexpr std::array<std::uint8_t, 2> kStart = {0xFF, 0xD8};
+  if (!BeginsWith(bytes, kStart)) return {};
+  for (std::size_t at = 2; at + 9 <= bytes.size() && bytes[at] == 0xFF;) {
+    const std::uint8_t marker = bytes[at + 1];
+    if (IsFrame(marker)) {
+      return {BigEndian(bytes.subspan(at + 7, 2)), BigEndian(bytes.subspan(at + 5, 2))};
+    }
+    if (marker == 0xFF) {
+      ++at;  // any number of them may stand before a marker
+    } else {
+      at += 2 + (StandsAlone(marker) ? 0 : BigEndian(bytes.subspan(at + 2, 2)));
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+PictureSize SizeOfPicture(std::span<const std::uint8_t> bytes) {
+  const PictureSize png = SizeOfPng(bytes);
+  return png.width > 0 ? png : SizeOfJpeg(bytes);
+}
+
+}  // namespace aisle

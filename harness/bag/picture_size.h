@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace aisle {
+
+struct PictureSize {
+  std::uint32_t width = 0, height = 0;
+};
+
+/// Size in pixels as the header of a PNG or JPEG states it; nothing is decoded. 0 x 0 where the
+/// bytes are neither, or end before they say it.
+PictureSize SizeOfPicture(std::span<const std::uint8_t> bytes);
+
+}  // namespace aisle
