@@ -68,6 +68,8 @@ std::unique_ptr<Estimator> MakeEstimator(const SystemSpec& system,
                        .free_running = options.free_running});
   } catch (const std::runtime_error& error) {
     throw InputError(error.what());  // the files a system starts from are input
+  } catch (const std::invalid_argument& error) {
+    throw InputError(options.dataset.empty() ? "stdin" : options.dataset, 0, error.what());
   }
 }
 

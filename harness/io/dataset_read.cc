@@ -16,6 +16,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Without the byte order mark that some editors set before UTF-8.
+std::string ReadText(const fs::path& path, std::size_t max_bytes = std::size_t{1} << 30) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  std::string text = ReadFile(path, max_bytes);
+  if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
+  return text;
+}
+
 std::vector<double> Numbers(const std::string& text, const fs::path& file, std::size_t line) {
   std::istringstream stream(text);
   std::vector<double> numbers;
@@ -69,7 +77,7 @@ Eigen::Isometry3d BodyOfSensor(const YAML::Node& node, const fs::path& file) {
 
 CameraCalibration ReadEurocSensor(const fs::path& file) {
   YAML::Node root;
-  std::string text = ReadFile(file, 1 << 20);
+  std::string text = ReadText(file, 1 << 20);
   if (text.starts_with("%YAML:")) text.erase(0, text.find('\n') + 1);  // OpenCV's own dialect
   try {
     root = YAML::Load(text);
@@ -92,6 +100,15 @@ CameraCalibration ReadEurocSensor(const fs::path& file) {
   camera.fy = pinhole[1];
   camera.cx = pinhole[2];
   camera.cy = pinhole[3];
+  constexpr double kLeastFocal_px = 0.1, kFarthest_px = 1e6;  // beyond which arithmetic ends
+  const auto is_focal = [](double f) { return f >= kLeastFocal_px && f <= kFarthest_px; };
+  if (!is_focal(camera.fx) || !is_focal(camera.fy) || !(std::abs(camera.cx) <= kFarthest_px) ||
+      !(std::abs(camera.cy) <= kFarthest_px)) {
+    throw InputError(file.string(), 0,
+                     fmt::format("intrinsics {:g}, {:g}, {:g}, {:g} are no camera's: expected fx, "
+                                 "fy, cx, cy in pixels",
+                                 pinhole[0], pinhole[1], pinhole[2], pinhole[3]));
+  }
   const std::string model = root["distortion_model"] ? root["distortion_model"].Scalar() : "none";
   camera.equidistant = model == "equidistant" || model == "fisheye";
   const bool polynomial =  // as EuRoC, Kalibr and ROS call it
@@ -126,7 +143,7 @@ void CheckAreThere(const std::map<std::int64_t, fs::path>& images, const fs::pat
 
 std::map<std::int64_t, fs::path> ReadEurocIndex(const fs::path& camera) {
   const fs::path file = camera / "data.csv";
-  std::istringstream stream(ReadFile(file));
+  std::istringstream stream(ReadText(file));
   std::map<std::int64_t, fs::path> images;
   std::string line;
   for (std::size_t number = 1; std::getline(stream, line); ++number) {
@@ -146,7 +163,10 @@ std::map<std::int64_t, fs::path> ReadEurocIndex(const fs::path& camera) {
     if (name.empty() || name.find('/') != std::string::npos || name.starts_with("..")) {
       throw InputError(file.string(), number, "'" + Printable(name) + "' is not a plain file name");
     }
-    images[stamp_ns] = camera / "data" / name;
+    if (!images.emplace(stamp_ns, camera / "data" / name).second) {
+      throw InputError(file.string(), number,
+                       fmt::format("a second image at {} ns: remove one of them", stamp_ns));
+    }
   }
   CheckAreThere(images, file);
   return images;
@@ -227,13 +247,17 @@ KittiFolders FindKitti(const fs::path& folder) {
 }
 
 std::map<std::string, std::vector<double>> ReadKittiCalibration(const fs::path& file) {
-  std::istringstream stream(ReadFile(file));
+  std::istringstream stream(ReadText(file));
   std::map<std::string, std::vector<double>> rows;
   std::string line;
   for (std::size_t number = 1; std::getline(stream, line); ++number) {
     const std::size_t colon = line.find(':');
     if (colon == std::string::npos) continue;
-    rows[line.substr(0, colon)] = Numbers(line.substr(colon + 1), file, number);
+    const std::string name = line.substr(0, colon);
+    if (!rows.emplace(name, Numbers(line.substr(colon + 1), file, number)).second) {
+      throw InputError(file.string(), number,
+                       "a second line '" + Printable(name) + ":': remove one of them");
+    }
   }
   return rows;
 }
@@ -262,7 +286,7 @@ struct KittiPairs {
 
 /// The frames of which both folders have the image.
 KittiPairs FindKittiPairs(const fs::path& times, const fs::path& left, const fs::path& right) {
-  std::istringstream stream(ReadFile(times));
+  std::istringstream stream(ReadText(times));
   KittiPairs found;
   std::size_t rows = 0, left_images = 0;
   for (std::string text; stream >> text; ++rows) {

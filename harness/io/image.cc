@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t kHeaderBytes = 33;  // signature, IHDR chunk
 constexpr std::uint32_t kMaxSide = 16384;
+constexpr std::uint64_t kMostPixels = 1U << 26;  // a few bytes of zeros may claim to be any number
 
 std::uint32_t BigEndian(const std::string& bytes, std::size_t at) {
   std::uint32_t value = 0;
@@ -30,6 +31,11 @@ void CheckPngHeader(const std::string& bytes, const std::string& file) {
     throw InputError(file, 0,
                      fmt::format("has {}x{} pixels; at most {} in each direction are allowed",
                                  width, height, kMaxSide));
+  }
+  if (std::uint64_t{width} * height > kMostPixels) {
+    throw InputError(
+        file, 0,
+        fmt::format("has {}x{} pixels; at most {} in all are allowed", width, height, kMostPixels));
   }
 }
 
@@ -116,11 +122,11 @@ void WriteVectorPfm(const std::filesystem::path& path, const cv::Mat3f& vectors)
 
 cv::Mat1b ReadMaskPng(const std::filesystem::path& path) {
   const cv::Mat image = ReadPng(path);
-  std::vector<cv::Mat> bands;
-  cv::split(image, bands);
-  if (bands.size() == 4) bands.pop_back();  // how opaque it is is no colour
+  const int colours = std::min(image.channels(), 3);  // how opaque it is is no colour
   cv::Mat1b mask(image.size(), 0), set;
-  for (const cv::Mat& band : bands) {
+  cv::Mat band;
+  for (int k = 0; k < colours; ++k) {
+    cv::extractChannel(image, band, k);
     cv::compare(band, 0, set, cv::CMP_NE);
     cv::bitwise_or(mask, set, mask);
   }

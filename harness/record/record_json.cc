@@ -1,5 +1,7 @@
 #include "harness/record/record_json.h"
 
+#include <utility>
+
 #include "harness/io/input_error.h"
 #include "harness/io/system_spec_json.h"
 
@@ -7,6 +9,22 @@ namespace aisle {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+/// A count; what is none would be made one by the conversions of JSON's library. Throws
+/// std::invalid_argument.
+template <typename Whole>
+Whole WholeNumber(const Json& json, const char* key) {
+  const Json& value = json.at(key);
+  if (!value.is_number_unsigned() || !std::in_range<Whole>(value.get<std::uint64_t>())) {
+    throw std::invalid_argument(
+        fmt::format("{} is {}, not a whole number in range", key, value.dump()));
+  }
+  return static_cast<Whole>(value.get<std::uint64_t>());
+}
+template <typename Whole>
+Whole WholeNumber(const Json& json, const char* key, Whole otherwise) {
+  return json.contains(key) ? WholeNumber<Whole>(json, key) : otherwise;
+}
 
 Json ScoreToJson(const Score& score) {
   Json json;
@@ -23,7 +41,7 @@ Score ScoreFromJson(const Json& json) {
   Score score;
   if (!json.at("value").is_null()) score.value = json.at("value").get<double>();
   score.unit = json.at("unit").get<std::string>();
-  score.n = json.at("n").get<std::size_t>();
+  score.n = WholeNumber<std::size_t>(json, "n");
   score.alignment = json.value("alignment", "");
   score.absent = json.value("absent", "");
   score.basis = json.value("basis", "");
@@ -102,17 +120,17 @@ RunRecord RecordFromJson(const Json& json) {
   record.spec.system = json.contains("system_spec")
                            ? SystemSpecFromJson(json.at("system_spec"))
                            : BuiltIn(system);  // a file from before variants
-  record.spec.seed = json.at("seed").get<std::uint64_t>();
-  record.spec.repeat = json.value("repeat", 1);
+  record.spec.seed = WholeNumber<std::uint64_t>(json, "seed");
+  record.spec.repeat = WholeNumber(json, "repeat", 1);
   record.status = RunStatusFromName(json.at("status").get<std::string>());
   record.hall = json.value("hall", "");
   record.status_why = json.value("why", "");
   record.limit_s = json.value("limit_s", 0.0);
   record.limit_mib = json.value("limit_mib", 0.0);
-  record.frames = json.at("frames").get<std::size_t>();
+  record.frames = WholeNumber<std::size_t>(json, "frames");
   record.rate_hz = json.value("rate_hz", 0.0);
   record.wall_s = json.value("wall_s", 0.0);
-  record.threads = json.value("threads", 0);
+  record.threads = WholeNumber(json, "threads", 0);
   record.content_hash = json.value("content_hash", "");
   record.inputs_hash = json.value("inputs_hash", "");
   record.output_hash = json.value("output_hash", "");
@@ -120,11 +138,16 @@ RunRecord RecordFromJson(const Json& json) {
   record.commit = json.value("commit", "");
   record.cpu = json.value("cpu", "");
   record.flaky = json.value("flaky", false);
-  record.attempts = json.value("attempts", record.flaky ? 2 : 1);  // of before: it told flaky alone
+  record.attempts =
+      WholeNumber(json, "attempts", record.flaky ? 2 : 1);  // of before: it told flaky alone
   record.system_version = json.value("system_version", "");
   record.last_words = json.value("last_words", "");
   for (const auto& [name, score] : json.at("scores").items()) {
-    record.scores[name] = ScoreFromJson(score);
+    try {
+      record.scores[name] = ScoreFromJson(score);
+    } catch (const std::exception& error) {
+      throw std::invalid_argument(fmt::format("score {}: {}", name, error.what()));
+    }
   }
   record.notes = json.value("notes", std::vector<std::string>{});
   for (const auto& [name, path] : json.at("artifacts").items()) {

@@ -46,7 +46,13 @@ Results FromJson(const Json& json) {
   results.rerun = json.value("rerun", "");
   results.suite_file = json.value("suite_file", "");
   results.wall_s = json.at("wall_s").get<double>();
-  for (const Json& run : json.at("runs")) results.runs.push_back(RecordFromJson(run));
+  for (const Json& run : json.at("runs")) {
+    try {
+      results.runs.push_back(RecordFromJson(run));
+    } catch (const std::exception& error) {
+      throw std::invalid_argument(fmt::format("run {}: {}", results.runs.size() + 1, error.what()));
+    }
+  }
   for (const Json& verdict : json.at("verdicts")) {
     results.verdicts.push_back(VerdictFromJson(verdict));
   }

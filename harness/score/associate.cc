@@ -1,6 +1,9 @@
 #include "harness/score/associate.h"
 
+#include <functional>
 #include <map>
+#include <numeric>
+#include <queue>
 #include <stdexcept>
 #include <tuple>
 
@@ -10,7 +13,11 @@ namespace {
 constexpr std::int64_t kEvoBoundNs = 10'000'000;
 constexpr std::int64_t kTumBoundNs = 20'000'000;
 
-std::int64_t Distance(std::int64_t a, std::int64_t b) { return a < b ? b - a : a - b; }
+/// Of any two stamps: how far apart they are need not fit into a signed number.
+std::uint64_t Distance(std::int64_t a, std::int64_t b) {
+  const auto [earlier, later] = std::minmax(a, b);
+  return static_cast<std::uint64_t>(later) - static_cast<std::uint64_t>(earlier);
+}
 
 std::size_t FirstNotBefore(const Trajectory& trajectory, std::int64_t stamp_ns) {
   const auto at = std::lower_bound(
@@ -46,7 +53,10 @@ std::vector<PosePair> AssociateLikeEvo(const Trajectory& truth, const Trajectory
   if (searched.empty()) return pairs;
   for (std::size_t i = 0; i < walked.size(); ++i) {
     const std::size_t nearest = NearestIndex(searched, walked[i].stamp_ns);
-    if (Distance(searched[nearest].stamp_ns, walked[i].stamp_ns) > bound_ns) continue;
+    if (Distance(searched[nearest].stamp_ns, walked[i].stamp_ns) >
+        static_cast<std::uint64_t>(bound_ns)) {
+      continue;
+    }
     pairs.push_back(walk_truth ? PosePair{i, nearest} : PosePair{nearest, i});
   }
   return pairs;
@@ -71,25 +81,76 @@ class TakenPairs {
 /// Whether a pair may cross one that was taken.
 enum class Crossing { kAllowed, kRefused };
 
-/// Closest pairs first, each pose at most once. `bound_ns` is inclusive.
+/// The poses of truth that nobody has taken (union-find with path halving, one of each direction).
+class FreePoses {
+ public:
+  explicit FreePoses(std::size_t count) : after_(count + 1), before_(count + 1) {
+    std::iota(after_.begin(), after_.end(), std::size_t{0});
+    std::iota(before_.begin(), before_.end(), std::size_t{0});
+  }
+  /// The first from `at` on; their count where there is none.
+  std::size_t FirstFrom(std::size_t at) { return Root(after_, at); }
+  /// One past the last before `end`; 0 where there is none.
+  std::size_t EndBefore(std::size_t end) { return Root(before_, end); }
+  bool Has(std::size_t at) { return FirstFrom(at) == at; }
+  void Take(std::size_t at) {
+    after_[at] = at + 1;
+    before_[at + 1] = at;
+  }
+
+ private:
+  static std::size_t Root(std::vector<std::size_t>& next, std::size_t at) {
+    while (next[at] != at) at = next[at] = next[next[at]];
+    return at;
+  }
+  std::vector<std::size_t> after_, before_;
+};
+
+/// The poses of truth that one of the estimate has not been compared with lie before `left` and
+/// from `right` on.
+struct Outward {
+  std::size_t left = 0, right = 0;
+};
+
+/// Closest pairs first, each pose at most once. `bound_ns` is inclusive. One candidate of each pose
+/// is at hand, its nearest: all within a wide bound would be as many as there are pairs.
 std::vector<PosePair> AssociateGreedily(const Trajectory& truth, const Trajectory& estimate,
                                         std::int64_t bound_ns, Crossing crossing) {
-  std::vector<std::tuple<std::int64_t, std::size_t, std::size_t>> candidates;
-  for (std::size_t e = 0; e < estimate.size(); ++e) {
-    const std::int64_t stamp = estimate[e].stamp_ns;
-    for (std::size_t t = FirstNotBefore(truth, stamp - bound_ns);
-         t < truth.size() && truth[t].stamp_ns <= stamp + bound_ns; ++t) {
-      candidates.emplace_back(Distance(truth[t].stamp_ns, stamp), t, e);
-    }
-  }
-  std::sort(candidates.begin(), candidates.end());
-  std::vector<bool> truth_taken(truth.size()), estimate_taken(estimate.size());
-  TakenPairs taken;
   std::vector<PosePair> pairs;
-  for (const auto& [distance, t, e] : candidates) {
-    if (truth_taken[t] || estimate_taken[e]) continue;
-    if (crossing == Crossing::kRefused && taken.AreCrossedBy(t, e)) continue;
-    truth_taken[t] = estimate_taken[e] = true;
+  if (bound_ns < 0) return pairs;
+  const auto bound = static_cast<std::uint64_t>(bound_ns);
+  FreePoses free(truth.size());
+  std::vector<Outward> unseen(estimate.size());
+  using Candidate = std::tuple<std::uint64_t, std::size_t, std::size_t>;
+  std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> nearest;
+  const auto offer_next = [&](std::size_t e) {
+    Outward& outward = unseen[e];
+    outward.left = free.EndBefore(outward.left);
+    outward.right = free.FirstFrom(outward.right);
+    const auto distance = [&](std::size_t t) {
+      return Distance(truth[t].stamp_ns, estimate[e].stamp_ns);
+    };
+    const bool has_left = outward.left > 0 && distance(outward.left - 1) <= bound;
+    const bool has_right = outward.right < truth.size() && distance(outward.right) <= bound;
+    if (!has_left && !has_right) return;
+    const bool goes_left =
+        has_left && (!has_right || distance(outward.left - 1) <= distance(outward.right));
+    const std::size_t t = goes_left ? --outward.left : outward.right++;
+    nearest.emplace(distance(t), t, e);
+  };
+  for (std::size_t e = 0; e < estimate.size(); ++e) {
+    unseen[e].left = unseen[e].right = FirstNotBefore(truth, estimate[e].stamp_ns);
+    offer_next(e);
+  }
+  TakenPairs taken;
+  while (!nearest.empty()) {
+    const auto [distance, t, e] = nearest.top();
+    nearest.pop();
+    if (!free.Has(t) || (crossing == Crossing::kRefused && taken.AreCrossedBy(t, e))) {
+      offer_next(e);
+      continue;
+    }
+    free.Take(t);
     taken.Take(t, e);
     pairs.push_back({t, e});
   }

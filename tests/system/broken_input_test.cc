@@ -2,6 +2,9 @@
 // nothing left behind.
 #include <gmock/gmock.h>
 
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+
 #include "harness/io/file.h"
 #include "tests/system/program.h"
 
@@ -150,6 +153,31 @@ TEST_F(BrokenInputTest, SuitesAndScenes) {
        "aisle: paper/scene2:90-95: its last start would be frame 98, and it ends before frame 95: "
        "fewer --starts or a smaller --step"},
   });
+}
+
+/// Smaller than the SLAM takes: the recording's fault, not ours.
+TEST_F(BrokenInputTest, ARecordingOfTinyImages) {
+  const auto camera = [](const char* T) {
+    return fmt::format(
+        "camera_model: pinhole\nintrinsics: [30, 30, 16, 10]\nresolution: [33, 20]\n"
+        "distortion_coefficients: [0, 0, 0, 0]\nT_BS:\n  data: [{}]\n",
+        T);
+  };
+  const cv::Mat1b grey(20, 33, std::uint8_t{90});
+  for (const char* name : {"cam0", "cam1"}) {
+    const fs::path folder = fs::path(folder_) / "d/mav0" / name;
+    fs::create_directories(folder / "data");
+    cv::imwrite((folder / "data/1000000000.png").string(), grey);
+    std::ofstream(folder / "data.csv") << "#timestamp [ns],filename\n1000000000,1000000000.png\n";
+    std::ofstream(folder / "sensor.yaml")
+        << camera(name == std::string("cam0") ? "1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1"
+                                              : "1,0,0,0.12,0,1,0,0,0,0,1,0,0,0,0,1");
+  }
+  const Said said = Run({"slam", Fill("{d}/d"), "-o", Fill("{d}/o")}, 30);
+  EXPECT_EQ(said.code, 4) << said.text;
+  EXPECT_THAT(said.text, testing::HasSubstr(Fill(
+                             "aisle: {d}/d: StereoSlam: camera is 33x20 pixels; at least 64x64 are "
+                             "needed")));
 }
 
 TEST_F(BrokenInputTest, ReportsPartsAndRuns) {

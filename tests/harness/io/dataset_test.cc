@@ -584,6 +584,46 @@ TEST_F(DatasetTest, OtherNamesOfALensAndBlanksInAListAreRead) {
   EXPECT_EQ(recording.cameras.left.distortion, (std::vector<double>{-0.3, 0.1, 0, 0}));
 }
 
+TEST_F(DatasetTest, AByteOrderMarkIsNoPartOfAText) {
+  const auto mark = [&](const std::string& name) {
+    WriteFileAtomically(folder_ / name, "\xEF\xBB\xBF" + Read(name));
+  };
+  Export(DatasetFormat::kEuroc);
+  for (const char* name : {"mav0/cam0/data.csv", "mav0/cam1/data.csv", "mav0/cam0/sensor.yaml"}) {
+    mark(name);
+  }
+  ExpectCameras(ReadRecording(folder_, DatasetFormat::kEuroc));
+  Export(DatasetFormat::kKitti);
+  for (const char* name : {"sequences/00/calib.txt", "sequences/00/times.txt"}) mark(name);
+  ExpectCameras(ReadRecording(folder_, DatasetFormat::kKitti));
+}
+
+TEST_F(DatasetTest, WhatIsThereTwiceIsRefused) {
+  Export(DatasetFormat::kEuroc);
+  const std::string index = Read("mav0/cam1/data.csv");
+  WriteFileAtomically(folder_ / "mav0/cam1/data.csv", index + index.substr(index.find('\n') + 1));
+  EXPECT_THAT(Complaint(folder_, DatasetFormat::kEuroc),
+              HasSubstr("data.csv:7: a second image at"));
+  Export(DatasetFormat::kKitti);
+  const std::string calibration = Read("sequences/00/calib.txt");
+  WriteFileAtomically(folder_ / "sequences/00/calib.txt",
+                      calibration + "P1: 9 0 0 0 0 9 0 0 0 0 1 0\n");
+  EXPECT_THAT(Complaint(folder_, DatasetFormat::kKitti), HasSubstr("a second line 'P1:'"));
+}
+
+TEST_F(DatasetTest, IntrinsicsThatAreNoCamerasAreRefused) {
+  Export(DatasetFormat::kEuroc);
+  const std::string file = "mav0/cam0/sensor.yaml", good = Read(file);
+  const std::size_t begin = good.find('[', good.find("intrinsics:"));
+  for (const char* bad : {"[1e308, 30, 15, 12]", "[30, 1e-300, 15, 12]", "[30, 30, 1e300, 12]",
+                          "[-30, 30, 15, 12]"}) {
+    std::string text = good;
+    text.replace(begin, text.find(']', begin) + 1 - begin, bad);
+    WriteFileAtomically(folder_ / file, text);
+    EXPECT_THAT(Complaint(folder_, DatasetFormat::kEuroc), HasSubstr("are no camera's")) << bad;
+  }
+}
+
 TEST(ImuTest, AtRestItFeelsGravityUpwards) {
   const auto samples =
       IdealImu([](std::int64_t) { return Eigen::Isometry3d::Identity(); }, 0, 10'000'000, 200);

@@ -75,6 +75,21 @@ TEST_F(FloatImageTest, LeavesNothingBehindWhereItIsBroken) {
   EXPECT_TRUE(fs::is_empty(folder_ / "temp"));
 }
 
+/// A header of an image that would fill memory with what a few bytes of zeros compress to.
+TEST_F(FloatImageTest, RefusesAPngOfAbsurdlyManyPixelsBeforeItIsDecoded) {
+  std::string png("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x40\0\0\0\x40\0\x08\x06\0\0\0", 29);
+  png += std::string(16, '\0');
+  for (const auto read : {+[](const fs::path& file) { ReadMaskPng(file); },
+                          +[](const fs::path& file) { ReadGreyPng(file); }}) {
+    try {
+      read(Write("bomb.png", png));
+      ADD_FAILURE();
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("has 16384x16384 pixels; at most 67108864"));
+    }
+  }
+}
+
 TEST_F(FloatImageTest, SaysWhatKeepsItFromTheFile) {
   EXPECT_THROW(ReadLinearImage(folder_ / "absent.pfm"), InputError);
   EXPECT_THROW(ReadLinearImage(Write("image.png", "PF\n1 1\n-1.0\n0000")), InputError);

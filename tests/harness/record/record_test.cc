@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <nlohmann/json.hpp>
+
 #include "harness/io/input_error.h"
 #include "harness/record/frames_csv.h"
 #include "tests/harness/record/night.h"
@@ -32,6 +34,28 @@ TEST_F(RecordTest, ResultsReadBackAsTheyWere) {
   const auto record = ReadRun(results.runs[0].spec, folder_);
   ASSERT_TRUE(record);
   EXPECT_EQ(ToJson(*record), ToJson(results.runs[0]));
+}
+
+TEST_F(RecordTest, ACountThatIsNoneIsSaidWithItsRunAndKey) {
+  const std::string whole = ToJson(MakeNight({.scenes = 1, .systems = {"oracle"}}, folder_));
+  const auto said = [&](const std::string& key, const std::string& value) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::parse(whole);
+    json["runs"][0][key] = nlohmann::ordered_json::parse(value);
+    try {
+      ResultsFromJson(json.dump(), "x");
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  for (const char* value : {"-1", "1.5", "1e300", "\"1\"", "[1]"}) {
+    EXPECT_EQ(said("seed", value), fmt::format("x: not a results file: run 1: seed is {}, not a "
+                                               "whole number in range",
+                                               nlohmann::json::parse(value).dump()));
+    EXPECT_NE(said("frames", value), "") << value;
+  }
+  EXPECT_NE(said("threads", "4294967297"), "");
+  EXPECT_EQ(said("seed", "18446744073709551615"), "");
 }
 
 TEST_F(RecordTest, FramesReadBackAsTheyWere) {

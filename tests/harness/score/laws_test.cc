@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <limits>
+#include <tuple>
+
 #include "harness/score/masks.h"
 #include "harness/score/pose_error.h"
 #include "harness/score/relative_error.h"
@@ -35,6 +38,41 @@ Trajectory Noisy(const Trajectory& truth) {
   Trajectory noisy = truth;
   for (StampedPose& pose : noisy) pose.T_world_rig = pose.T_world_rig * RandomPose(0.2);
   return noisy;
+}
+
+/// The rule by its letter: all pairs within the bound, the closest first.
+std::vector<PosePair> PairsOfAll(const Trajectory& truth, const Trajectory& estimate,
+                                 std::int64_t bound_ns, bool may_cross) {
+  std::vector<std::tuple<std::int64_t, std::size_t, std::size_t>> all;
+  for (std::size_t t = 0; t < truth.size(); ++t) {
+    for (std::size_t e = 0; e < estimate.size(); ++e) {
+      const std::int64_t off = std::abs(truth[t].stamp_ns - estimate[e].stamp_ns);
+      if (off <= bound_ns) all.emplace_back(off, t, e);
+    }
+  }
+  std::ranges::sort(all);
+  std::vector<PosePair> pairs;
+  for (const auto& [off, t, e] : all) {
+    const bool free = std::ranges::none_of(pairs, [&](const PosePair& pair) {
+      const bool crosses = (pair.truth < t) != (pair.estimate < e);
+      return pair.truth == t || pair.estimate == e || (crosses && !may_cross);
+    });
+    if (free) pairs.push_back({t, e});
+  }
+  std::ranges::sort(pairs, {}, &PosePair::truth);
+  return pairs;
+}
+
+/// Rising stamps of which many are a few milliseconds apart, and so many differences are equal.
+Trajectory RandomStamps() {
+  Trajectory trajectory;
+  std::int64_t stamp = *rc::gen::inRange(-20, 20) * 1'000'000LL;
+  const int count = *rc::gen::inRange(0, 40);
+  for (int i = 0; i < count; ++i) {
+    trajectory.push_back({stamp, Eigen::Isometry3d::Identity()});
+    stamp += *rc::gen::inRange(1, 12) * 1'000'000LL;
+  }
+  return trajectory;
 }
 
 Trajectory Moved(const Eigen::Isometry3d& T, const Trajectory& trajectory) {
@@ -113,6 +151,37 @@ TEST(ScoreLaws, AssociationIsOneToOneAndWithinItsBound) {
       RC_ASSERT(pairs[i].estimate > pairs[i - 1].estimate);
     }
   }));
+}
+
+TEST(ScoreLaws, AssociationIsThatOfTheSortedListOfAllPairs) {
+  EXPECT_TRUE(rc::check([] {
+    const Trajectory truth = RandomStamps(), estimate = RandomStamps();
+    const std::int64_t bound_ns = *rc::gen::inRange(0, 120) * 1'000'000LL;
+    RC_ASSERT(Associate(truth, estimate, {.max_difference_ns = bound_ns}) ==
+              PairsOfAll(truth, estimate, bound_ns, false));
+    // Strict: one nanosecond more takes the bound in.
+    RC_ASSERT(Associate(truth, estimate,
+                        {.rule = AssociationRule::kTum, .max_difference_ns = bound_ns + 1}) ==
+              PairsOfAll(truth, estimate, bound_ns, true));
+  }));
+}
+
+/// As many pairs as there are would be 25 GB of candidates.
+TEST(ScoreLaws, AssociationKeepsNoListOfAllPairs) {
+  Trajectory dense;
+  for (int i = 0; i < 40'000; ++i) dense.push_back({i * 1000LL, Eigen::Isometry3d::Identity()});
+  EXPECT_EQ(Associate(dense, dense, {.max_difference_ns = 1'000'000'000'000}).size(), dense.size());
+}
+
+TEST(ScoreLaws, StampsFartherApartThanANumberReachesAreNoPair) {
+  constexpr std::int64_t kFirst = std::numeric_limits<std::int64_t>::min();
+  constexpr std::int64_t kLast = std::numeric_limits<std::int64_t>::max();
+  Trajectory ends{{kFirst, Eigen::Isometry3d::Identity()}, {kLast, Eigen::Isometry3d::Identity()}};
+  for (const auto rule :
+       {AssociationRule::kNearest, AssociationRule::kTum, AssociationRule::kEvo}) {
+    const auto pairs = Associate(ends, ends, {.rule = rule, .max_difference_ns = 1'000'000});
+    EXPECT_EQ(pairs, (std::vector<PosePair>{{0, 0}, {1, 1}}));
+  }
 }
 
 TEST(ScoreLaws, ATruthOfAnyDensityGivesThePosesOfACameraEvosBound) {
