@@ -293,7 +293,7 @@ void StereoSlam::Impl::TakeDueWork(TrackedFrame& result) {
 
 /// What is remembered of the landmarks of a map in whose place another is now.
 void StereoSlam::Impl::CarryOver(const std::optional<Map>& replaced) {
-  if (!replaced || options.base == Base::kPlain) return;
+  if (!replaced) return;
   track.CarryOver(*replaced, keeper.map());
   policy->CarryOver(*replaced, keeper.map());
 }
@@ -354,8 +354,8 @@ bool StereoSlam::Impl::Coast(const std::shared_ptr<const Frame>& frame) {
   state = TrackingState::kCoasting;
   if (track.memory().measured) known_ns = frame->stamp_ns;
   const double while_s = SecondsBetween(coasting_since_ns, frame->stamp_ns);
-  const bool is_time = !options.localise_only && !keeper.busy() &&
-                       while_s >= options.track.measured.extend_after_s;
+  const bool is_time =
+      !options.localise_only && !keeper.busy() && while_s >= options.track.measured.extend_after_s;
   const auto edit = is_time ? policy->Extend(frame, Drive()) : std::nullopt;
   policy->Note(frame, nullptr, std::nullopt, Drive());
   ++frame_count;
@@ -380,7 +380,10 @@ void StereoSlam::Impl::NoteOutcome(const std::shared_ptr<const Frame>& frame,
   if (pose) {
     track.Note(keeper.map(), *frame, *pose, IsFound(), options.track);
     known_ns = frame->stamp_ns;
-    if (options.localise_only) track.TakeCounts();  // the map stays as it is
+    if (!options.localise_only) {  // then the map stays as it is
+      constexpr LookOptions kEveryFrame{0, 0};
+      track.Count(*pose, options.base == Base::kPlain ? options.track.look : kEveryFrame);
+    }
     lost_since_ns.reset();
     state = TrackingState::kTracking;
     return;

@@ -46,6 +46,13 @@ void Describe(OptionFields& fields, MeasuredMotionOptions& options) {
       "Time without the map after which a frame continues it where the measured motion leads.");
 }
 
+void Describe(OptionFields& fields, LookOptions& options) {
+  fields.Number("least_m", &options.least_m, {0, 1000}, "m",
+                "Way from which the next frame counts for or against a landmark.");
+  fields.Number("least_deg", &options.least_deg, {0, 180}, "deg",
+                "Turn from which it counts as well; 0 for both: every frame counts.");
+}
+
 void Describe(OptionFields& fields, TrackOptions& options) {
   fields.Group("motion", &options.motion);
   fields.Number("wide_factor", &options.wide_factor, {1, 100}, "",
@@ -78,6 +85,7 @@ void Describe(OptionFields& fields, TrackOptions& options) {
   fields.Group("dead_reckoning", &options.dead_reckoning);
   fields.Group("inertia", &options.inertia);
   fields.Group("measured", &options.measured);
+  fields.Group("look", &options.look);
 }
 
 void Describe(OptionFields& fields, KeyframeOptions& options) {

@@ -42,6 +42,12 @@ struct MeasuredMotionOptions {
   double extend_after_s = 0.5;
 };
 
+/// How far the rig moves until what it sees is another look at the map: either is enough.
+struct LookOptions {
+  double least_m = 0.005;
+  double least_deg = 0.1;
+};
+
 /// How a frame finds its pose in the map.
 struct TrackOptions {
   MatchOptions motion{7, 100, 0.9};     ///< landmarks of the last frame, where motion predicts them
@@ -65,6 +71,7 @@ struct TrackOptions {
   DeadReckoningOptions dead_reckoning;
   InertiaOptions inertia;
   MeasuredMotionOptions measured;  ///< where a motion is given: see StereoSlam::Track
+  LookOptions look;                ///< between frames that count for or against a landmark
 };
 
 /// When a frame becomes a keyframe.
@@ -83,6 +90,7 @@ struct KeyframeOptions {
 void Describe(OptionFields& fields, DeadReckoningOptions& options);
 void Describe(OptionFields& fields, InertiaOptions& options);
 void Describe(OptionFields& fields, MeasuredMotionOptions& options);
+void Describe(OptionFields& fields, LookOptions& options);
 void Describe(OptionFields& fields, TrackOptions& options);
 void Describe(OptionFields& fields, KeyframeOptions& options);
 

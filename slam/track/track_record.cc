@@ -1,5 +1,7 @@
 #include "slam/track/track_record.h"
 
+#include <numbers>
+
 #include "slam/common/seconds.h"
 #include "slam/map/successor.h"
 
@@ -48,13 +50,24 @@ void TrackRecord::Note(const Map& map, const Frame& frame, const FramePose& pose
   memory_.motion = motion;
   memory_.measured = MeasuredMotion{Eigen::Isometry3d::Identity(), pose.pose.covariance};
   memory_.landmarks.clear();
-  for (const LandmarkId id : pose.expected) ++counts_[id].first;
   for (std::size_t i = 0; i < pose.matches.size(); ++i) {
-    if (!pose.pose.inlier[i]) continue;
-    memory_.landmarks.push_back(pose.matches[i].landmark);
-    ++counts_[pose.matches[i].landmark].second;
+    if (pose.pose.inlier[i]) memory_.landmarks.push_back(pose.matches[i].landmark);
   }
   track_.push_back({frame.stamp_ns, memory_.reference, memory_.T_reference_rig});
+}
+
+void TrackRecord::Count(const FramePose& pose, const LookOptions& options) {
+  const Eigen::Isometry3d T_world_rig = pose.pose.T_rig_world.inverse();
+  if (counted_at_) {
+    const Eigen::Isometry3d moved = counted_at_->inverse() * T_world_rig;
+    const double turned_deg = Eigen::AngleAxisd(moved.linear()).angle() * 180 / std::numbers::pi;
+    if (moved.translation().norm() < options.least_m && turned_deg < options.least_deg) return;
+  }
+  counted_at_ = T_world_rig;
+  for (const LandmarkId id : pose.expected) ++counts_[id].first;
+  for (std::size_t i = 0; i < pose.matches.size(); ++i) {
+    if (pose.pose.inlier[i]) ++counts_[pose.matches[i].landmark].second;
+  }
 }
 
 void TrackRecord::Roll(const std::optional<MeasuredMotion>& motion, std::int64_t stamp_ns,

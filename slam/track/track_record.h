@@ -20,6 +20,11 @@ class TrackRecord {
   void Note(const Map& map, const Frame& frame, const FramePose& pose, bool goes_on,
             const TrackOptions& options);
 
+  /// Counts which landmarks should have been and were found in a frame, where the rig has moved
+  /// since the last one counted. One that stands behind a person misses what the person hides at
+  /// every frame and knows no more of it than after the first.
+  void Count(const FramePose& pose, const LookOptions& options);
+
   /// Notes how the rig has been measured to move from the last frame to the one that comes, at
   /// `stamp_ns`; what was measured before it is of no use where nothing was, but for a last frame
   /// that has been noted all the same. `seen`: how it has moved since the last noted frame by the
@@ -69,8 +74,9 @@ class TrackRecord {
   };
 
   TrackMemory memory_;
-  std::optional<std::int64_t> last_frame_ns_;  // whether or not anything is known of it
-  MeasuredMotion measured_step_;               // since the last frame, while memory_.measured is
+  std::optional<std::int64_t> last_frame_ns_;    // whether or not anything is known of it
+  std::optional<Eigen::Isometry3d> counted_at_;  // T_world_rig of the last frame counted
+  MeasuredMotion measured_step_;                 // since the last frame, while memory_.measured is
   std::map<LandmarkId, std::pair<int, int>> counts_;  // predicted and found
   std::vector<Anchored> track_;
 };

@@ -124,7 +124,7 @@ TEST_F(OrbSlam2TrackingTest, AFrameThatIsFoundAgainHasNotSettled) {
   ASSERT_TRUE(relocalising.Find(FrameAt(200), lost));
   for (int i = 1; i <= 30; ++i) {  // a map of many keyframes
     MapEdit more;
-    more.new_keyframes.push_back(map.At({0}));
+    more.new_keyframes.push_back(map.At(KeyframeId{0}));
     more.new_keyframes.back().id = map.NextKeyframeId();
     map.Apply(more);
   }

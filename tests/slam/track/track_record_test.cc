@@ -108,7 +108,8 @@ TEST_F(FoundAfterCoasting, WhatIsMeasuredTeachesTheVelocity) {
   EXPECT_NEAR(record.memory().carried->T_now_before.translation().z(), -0.03, 1e-3);
 }
 
-/// Wheels that say nothing of one step: inertia bridges it, and what they say then counts from there.
+/// Wheels that say nothing of one step: inertia bridges it, and what they say then counts from
+/// there.
 TEST_F(FoundAfterCoasting, OneGapInWhatIsMeasuredIsOneStepOfInertia) {
   Coast(Forward(0.05));
   record.Coast(map, 39 * kStepNs, {});
@@ -129,6 +130,38 @@ TEST_F(FoundAfterCoasting, AStepFromAnUnknownPlaceLeadsNowhere) {
   record.Roll({}, 20 * kStepNs, {});
   record.Roll(Forward(0.05), 21 * kStepNs, {});
   EXPECT_FALSE(record.memory().measured);
+}
+
+/// A rig that waits behind a person does not learn at every frame that what the person hides is
+/// not found: a landmark would be lost to the map for having been stood in front of.
+TEST(TrackRecord, FromOnePlaceALandmarkIsLookedForOnce) {
+  PointWorld world;
+  Map map;
+  TrackMemory memory;
+  BeginAtOrigin(world, &map, &memory);
+  FramePose pose = PoseOfKeyframe(map, memory.reference);
+  pose.expected = {pose.matches[0].landmark, pose.matches[1].landmark};
+  pose.pose.inlier[1] = false;  // hidden
+  const LookOptions published{0, 0};
+  for (const LookOptions& options : {LookOptions(), published}) {
+    TrackRecord record;
+    for (int k = 0; k < 10; ++k) {
+      pose.pose.T_rig_world = At(0, 0.001 * (k % 2)).inverse();  // as noise moves it
+      record.Count(pose, options);
+    }
+    pose.pose.T_rig_world = At(0, 0.05).inverse();
+    record.Count(pose, options);
+    pose.pose.T_rig_world =
+        (At(0, 0.05) * Eigen::AngleAxisd(0.01, Eigen::Vector3d::UnitY())).inverse();
+    record.Count(pose, options);
+    const int looks = options.least_m > 0 ? 3 : 12;
+    for (const MapEdit::Count& count : record.TakeCounts()) {
+      if (count.landmark == pose.expected[0] || count.landmark == pose.expected[1]) {
+        EXPECT_EQ(count.predicted, looks);
+      }
+      EXPECT_EQ(count.found, count.landmark == pose.expected[1] ? 0 : looks);
+    }
+  }
 }
 
 TEST(TrackRecord, AForgottenMotionIsForgottenByAll) {
