@@ -209,7 +209,8 @@ void CheckStated(const StatedRectification& stated, const std::string& topic,
   // Of another one there may be no inverse, and calibrations have no place for a skew.
   const Eigen::Matrix3d P = stated.projection.leftCols<3>();
   if (P(0, 1) != 0 || P(1, 0) != 0 || P.row(2) != Eigen::RowVector3d(0, 0, 1)) {
-    Refuse(topic, "a p that is not a pinhole's: its first columns must be fx 0 cx, 0 fy cy and 0 0 1",
+    Refuse(topic,
+           "a p that is not a pinhole's: its first columns must be fx 0 cx, 0 fy cy and 0 0 1",
            file);
   }
 }

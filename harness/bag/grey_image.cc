@@ -81,8 +81,8 @@ cv::Mat1b Grey(const ros::Image& message) {
   }
   if (message.step % CV_ELEM_SIZE1(encoding.type) != 0) {
     throw ros::CdrError(
-        fmt::format("states rows of {} bytes, which is not a whole number of {} values", message.step,
-                    message.encoding));
+        fmt::format("states rows of {} bytes, which is not a whole number of {} values",
+                    message.step, message.encoding));
   }
   const auto size = cv::Size(static_cast<int>(message.width), static_cast<int>(message.height));
   const cv::Mat image(size, encoding.type, const_cast<unsigned char*>(message.data.data()),
