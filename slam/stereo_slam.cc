@@ -307,7 +307,7 @@ bool StereoSlam::Impl::TakeAsKeyframe(const std::shared_ptr<const Frame>& frame,
   MapEdit edit = policy->MakeKeyframe(keeper.map(), frame, pose);
   edit.counts = track.TakeCounts();
   keeper.WorkIn(edit, frame_count);
-  pose.local.reference = policy->ReferenceOfKeyframe(pose, edit.new_keyframes.front().id);
+  pose.local.reference = edit.new_keyframes.front().id;  // with which its pose moves from here on
   return true;
 }
 

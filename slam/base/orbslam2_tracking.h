@@ -19,7 +19,6 @@ class OrbSlam2Tracking final : public TrackingPolicy {
                                 const MapperState& mapper) const override;
   MapEdit MakeKeyframe(const Map& map, const std::shared_ptr<const Frame>& frame,
                        const FramePose& pose) const override;
-  KeyframeId ReferenceOfKeyframe(const FramePose&, KeyframeId id) const override { return id; }
   std::optional<NewPart> Begin(const std::shared_ptr<const Frame>& frame,
                                const DriveState& drive) const override;
   /// Never: the published system has nothing but its images.

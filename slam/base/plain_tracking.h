@@ -18,9 +18,6 @@ class PlainTracking final : public TrackingPolicy {
                                 const MapperState& mapper) const override;
   MapEdit MakeKeyframe(const Map& map, const std::shared_ptr<const Frame>& frame,
                        const FramePose& pose) const override;
-  KeyframeId ReferenceOfKeyframe(const FramePose& pose, KeyframeId) const override {
-    return pose.local.reference;
-  }
   std::optional<NewPart> Begin(const std::shared_ptr<const Frame>& frame,
                                const DriveState& drive) const override;
   std::optional<MapEdit> Extend(const std::shared_ptr<const Frame>& frame,

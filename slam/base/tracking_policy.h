@@ -48,8 +48,6 @@ class TrackingPolicy {
   /// The keyframe that it becomes, with the landmarks that it has found and those that it brings.
   virtual MapEdit MakeKeyframe(const Map& map, const std::shared_ptr<const Frame>& frame,
                                const FramePose& pose) const = 0;
-  /// The keyframe that a frame which has become keyframe `id` is remembered by.
-  virtual KeyframeId ReferenceOfKeyframe(const FramePose& pose, KeyframeId id) const = 0;
 
   /// The keyframe that begins a map; nothing where the frame shows too little.
   virtual std::optional<NewPart> Begin(const std::shared_ptr<const Frame>& frame,
