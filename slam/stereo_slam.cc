@@ -380,7 +380,7 @@ void StereoSlam::Impl::NoteOutcome(const std::shared_ptr<const Frame>& frame,
   if (pose) {
     track.Note(keeper.map(), *frame, *pose, IsFound(), options.track);
     known_ns = frame->stamp_ns;
-    if (!options.localise_only) {  // then the map stays as it is
+    if (!options.localise_only) {  // else the map stays as it is
       constexpr LookOptions kEveryFrame{0, 0};
       track.Count(*pose, options.base == Base::kPlain ? options.track.look : kEveryFrame);
     }

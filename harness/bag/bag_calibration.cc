@@ -1,5 +1,6 @@
 #include "harness/bag/bag_calibration.h"
 
+#include "harness/contract/pinhole.h"
 #include "harness/contract/rigid.h"
 #include "harness/io/input_error.h"
 #include "harness/ros/definition.h"
@@ -38,23 +39,20 @@ bool IsCutOut(const ros::CameraInfo& info) {
          !is_whole(roi.height, info.height);
 }
 
-/// No camera's numbers lie beyond, with focal lengths and principal points in pixels: what does is
-/// a slip, and would only be seen in what is made of it.
-constexpr double kLeastFocal_px = 0.1, kMostStated = 1e6;
-
 /// Refuses what CameraInfo's field of this name states.
 [[noreturn]] void Refuse(const std::string& topic, const std::string& stated,
                          const std::string& file) {
   throw InputError(file, 0, fmt::format("{} states {}: {}", topic, stated, kCalibrationCure));
 }
 
+/// Lens coefficients and rotations are held to the bound of pixels, too: theirs are far smaller.
 void CheckNumbers(std::span<const double> numbers, const char* field, const std::string& topic,
                   const std::string& file) {
   for (std::size_t i = 0; i < numbers.size(); ++i) {
-    if (std::abs(numbers[i]) <= kMostStated) continue;
+    if (std::abs(numbers[i]) <= kFarthest_px) continue;
     Refuse(topic,
            fmt::format("{}[{}] as {:g}, which must be finite and at most {:g}", field, i,
-                       numbers[i], kMostStated),
+                       numbers[i], kFarthest_px),
            file);
   }
 }

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <sstream>
 
+#include "harness/contract/pinhole.h"
 #include "harness/contract/rigid.h"
 #include "harness/io/dataset.h"
 #include "harness/io/file.h"
@@ -100,10 +101,7 @@ CameraCalibration ReadEurocSensor(const fs::path& file) {
   camera.fy = pinhole[1];
   camera.cx = pinhole[2];
   camera.cy = pinhole[3];
-  constexpr double kLeastFocal_px = 0.1, kFarthest_px = 1e6;  // beyond which arithmetic ends
-  const auto is_focal = [](double f) { return f >= kLeastFocal_px && f <= kFarthest_px; };
-  if (!is_focal(camera.fx) || !is_focal(camera.fy) || !(std::abs(camera.cx) <= kFarthest_px) ||
-      !(std::abs(camera.cy) <= kFarthest_px)) {
+  if (!IsPinhole(camera.fx, camera.fy, camera.cx, camera.cy)) {
     throw InputError(file.string(), 0,
                      fmt::format("intrinsics {:g}, {:g}, {:g}, {:g} are no camera's: expected fx, "
                                  "fy, cx, cy in pixels",

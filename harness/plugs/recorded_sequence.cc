@@ -4,6 +4,7 @@
 #include <opencv2/core/eigen.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "harness/contract/pinhole.h"
 #include "harness/contract/rigid.h"
 #include "harness/io/image.h"
 #include "harness/io/input_error.h"
@@ -255,16 +256,13 @@ class RecordedSequence : public Sequence {
 
 /// Of the common plane: a pinhole in pixels, and depth comes from the baseline, to the right.
 void CheckRectified(const StereoCalibration& rig, const std::string& source) {
-  constexpr double kLeastFocal_px = 0.1, kMost_px = 1e6;
-  const bool has_focal =
-      std::min(rig.fx, rig.fy) >= kLeastFocal_px && rig.fx <= kMost_px && rig.fy <= kMost_px;
-  if (!has_focal || !(std::abs(rig.cx) <= kMost_px) || !(std::abs(rig.cy) <= kMost_px)) {
+  if (!IsPinhole(rig.fx, rig.fy, rig.cx, rig.cy)) {
     throw InputError(
         source, 0,
         fmt::format("according to its calibration the rectified camera has the focal lengths {:g} "
                     "and {:g} and the principal point {:g} {:g}: expected pixels, {:g} to {:g} and "
                     "within {:g} of the image's corner",
-                    rig.fx, rig.fy, rig.cx, rig.cy, kLeastFocal_px, kMost_px, kMost_px));
+                    rig.fx, rig.fy, rig.cx, rig.cy, kLeastFocal_px, kFarthest_px, kFarthest_px));
   }
   if (rig.baseline_m > 0 && rig.baseline_m <= kFarthest_m) return;
   throw InputError(

@@ -50,7 +50,7 @@ std::vector<PosePair> AssociateLikeEvo(const Trajectory& truth, const Trajectory
   const Trajectory& walked = walk_truth ? truth : estimate;
   const Trajectory& searched = walk_truth ? estimate : truth;
   std::vector<PosePair> pairs;
-  if (searched.empty()) return pairs;
+  if (searched.empty() || bound_ns < 0) return pairs;
   for (std::size_t i = 0; i < walked.size(); ++i) {
     const std::size_t nearest = NearestIndex(searched, walked[i].stamp_ns);
     if (Distance(searched[nearest].stamp_ns, walked[i].stamp_ns) >

@@ -181,6 +181,7 @@ TEST(ScoreLaws, StampsFartherApartThanANumberReachesAreNoPair) {
        {AssociationRule::kNearest, AssociationRule::kTum, AssociationRule::kEvo}) {
     const auto pairs = Associate(ends, ends, {.rule = rule, .max_difference_ns = 1'000'000});
     EXPECT_EQ(pairs, (std::vector<PosePair>{{0, 0}, {1, 1}}));
+    EXPECT_TRUE(Associate(ends, ends, {.rule = rule, .max_difference_ns = -1}).empty());
   }
 }
 
