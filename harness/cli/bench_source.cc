@@ -46,11 +46,11 @@ bool TakeStretch(std::string* text, BenchView* view) {
   const std::size_t colon = text->rfind(':');
   if (colon == std::string::npos) return false;
   int from = 0, to = 0;
-  char rest = 0;
-  if (std::sscanf(text->c_str() + colon + 1, "%d-%d%c", &from, &to, &rest) != 2 || from < 0 ||
-      to <= from) {
-    return false;
-  }
+  const char *begin = text->data() + colon + 1, *end = text->data() + text->size();
+  const auto first = std::from_chars(begin, end, from);
+  if (first.ec != std::errc() || first.ptr == end || *first.ptr != '-') return false;
+  const auto last = std::from_chars(first.ptr + 1, end, to);
+  if (last.ec != std::errc() || last.ptr != end || from < 0 || to <= from) return false;
   text->resize(colon);
   view->from = from;
   view->to = to;

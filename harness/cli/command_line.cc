@@ -69,33 +69,47 @@ void NameInExamples(CLI::App* app, const std::string& name) {
   for (CLI::App* command : app->get_subcommands({})) NameInExamples(command, name);
 }
 
-/// What is no number passes every range, since no comparison with it holds. Text that is none at
-/// all is told by the option itself.
-std::string NotFinite(const std::string& text) {
+/// A plain decimal number that is all of the text, as in suites; nothing else is one.
+template <class T>
+std::errc TakeWhole(const std::string& text, T* value) {
+  const char* end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, *value);
+  return error == std::errc() && rest != end ? std::errc::invalid_argument : error;
+}
+
+/// What is not a number passes every range, since no comparison with it holds.
+std::string NotFinite(std::string& text) {
   double value = 0;
-  if (!CLI::detail::lexical_cast(text, value) || std::isfinite(value)) return "";
+  if (TakeWhole(text, &value) == std::errc() && std::isfinite(value)) return "";
   return fmt::format("expected a finite number, got '{}'", Printable(text));
 }
 
-/// Read as C reads them, -1 and what is too large would stand for other numbers.
-std::string NotUnsigned(const std::string& text) {
-  std::uint64_t value = 0;
-  const char* end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, value);
-  if (error == std::errc() && rest == end) return "";
-  return fmt::format("expected an integer in [0, {}], got '{}'",
-                     std::numeric_limits<std::uint64_t>::max(), Printable(text));
+/// Read as C reads them, 010 is 8, and of counts -1 and what is too large are other numbers: they
+/// are handed on without zeros in front.
+template <class Whole>
+std::string NotWhole(std::string& text) {
+  using Limits = std::numeric_limits<Whole>;
+  Whole value = 0;
+  const std::errc wrong = TakeWhole(text, &value);
+  if (wrong != std::errc()) {
+    const bool tell_range = !Limits::is_signed || wrong == std::errc::result_out_of_range;
+    const std::string range = fmt::format(" in [{}, {}]", Limits::min(), Limits::max());
+    return fmt::format("expected an integer{}, got '{}'", tell_range ? range : "", Printable(text));
+  }
+  text = fmt::format("{}", value);
+  return "";
 }
 
 /// Every option of all commands that takes such a number, before its own range is asked.
 void AskForPlainNumbers(CLI::App* app) {
   for (CLI::Option* option : app->get_options()) {
     const std::string type = option->get_type_name();
-    const auto ask = [&](std::string (*wrong)(const std::string&)) {
-      option->transform(CLI::Validator([wrong](std::string& text) { return wrong(text); }, ""));
+    const auto ask = [&](std::string (*wrong)(std::string&)) {
+      option->transform(CLI::Validator(wrong, ""));
     };
     if (type.starts_with("FLOAT")) ask(NotFinite);
-    if (type.starts_with("UINT")) ask(NotUnsigned);
+    if (type.starts_with("UINT")) ask(NotWhole<std::uint64_t>);
+    if (type.starts_with("INT")) ask(NotWhole<std::int64_t>);
   }
   for (CLI::App* command : app->get_subcommands({})) AskForPlainNumbers(command);
 }

@@ -56,8 +56,9 @@ TEST(ParseViewTest, ARecordingMayHaveAnyName) {
 TEST(ParseViewTest, WhatIsNoStretchIsRefused) {
   for (const char* text :
        {"paper/scene2:", "paper/scene2:5", "paper/scene2:9-3", "paper/scene2:-1-3",
-        "paper/scene2:1-3x", "paper/scene2@", "paper/scene2:1-3@x", "paper/scene2@1:1-3",
-        "paper/scene22", "nowhere/at/all:1-2"}) {
+        "paper/scene2:1-3x", "paper/scene2: 1-3", "paper/scene2:1-+3", "paper/scene2:1-99999999999",
+        "paper/scene2@", "paper/scene2:1-3@x", "paper/scene2@1:1-3", "paper/scene22",
+        "nowhere/at/all:1-2"}) {
     EXPECT_THROW(ParseView(text), InputError) << text;
   }
 }

@@ -173,14 +173,38 @@ TEST(CommandLineTest, EveryTextOfHelpStandsAlone) {
 }
 
 TEST(CommandLineTest, NoSeedIsReadAsAnother) {
-  const std::vector<std::string> texts = {"-1", "18446744073709551616", "1.5", "0x10"};
+  const std::vector<std::string> texts = {"-1", "18446744073709551616", "1.5", "0x10", "+5", " 5",
+                                          "5 "};
   EXPECT_GE(AskEveryOption("UINT", texts, "expected an integer in [0, 18446744073709551615]"),
-            5u * 4u);  // run, render, preview, gallery and bisect have some
+            5u * 7u);  // run, render, preview, gallery and bisect have some
+}
+
+TEST(CommandLineTest, NoIntegerIsReadAsC) {
+  EXPECT_GE(AskEveryOption("INT", {"0x10", "+5", " 5", "5 ", "1.5"}, "expected an integer"),
+            5u * 5u);  // run, rerun, slam, vocabulary and gallery have some
+  AskEveryOption("INT", {"9223372036854775808"},
+                 "expected an integer in [-9223372036854775808, 9223372036854775807]");
+}
+
+/// C would read 010 as 8, and 09 not at all.
+TEST(CommandLineTest, ZerosInFrontOfANumberChangeNothing) {
+  CLI::App app;
+  Action action;
+  AddCommands(&app, &action);
+  for (const std::string text : {"010", "10"}) {
+    app.parse("run smoke --threads " + text + " --seed 09," + text);
+    const CLI::App& run = *app.get_subcommand("run");
+    EXPECT_EQ(run.get_option("--threads")->as<int>(), 10) << text;
+    EXPECT_THAT(run.get_option("--seed")->as<std::vector<std::uint64_t>>(),
+                testing::ElementsAre(9, 10))
+        << text;
+  }
 }
 
 TEST(CommandLineTest, NoOptionTakesWhatIsNoFiniteNumber) {
-  EXPECT_GE(AskEveryOption("FLOAT", {"nan", "inf", "-inf", "1e999"}, "expected a finite number"),
-            4u * 8u);  // run, rerun, bisect, preview and score have some
+  EXPECT_GE(AskEveryOption("FLOAT", {"nan", "inf", "-inf", "1e999", "0x10", " 5"},
+                           "expected a finite number"),
+            6u * 8u);  // run, rerun, bisect, preview and score have some
   EXPECT_EQ(Exit({"preview", "smoke/bits", "--time", "1e300"}), kBadInput);
 }
 
@@ -233,6 +257,32 @@ TEST(CommandLineTest, NothingToCompareIsSaid) {
   const fs::path folder = fs::temp_directory_path() / fmt::format("aisle_cli_none_{}", ::getpid());
   WriteFileAtomically(folder / "results.json", ToJson(Results{}));
   EXPECT_EQ(Exit({"compare", folder.string(), folder.string()}), kNothingToDo);
+  fs::remove_all(folder);
+}
+
+TEST(CommandLineTest, MetresAreNotComparedWithMillimetres) {
+  const fs::path folder = fs::temp_directory_path() / fmt::format("aisle_cli_mm_{}", ::getpid());
+  const auto write = [&](const std::string& name, const std::string& unit) {
+    Results results;
+    for (std::uint64_t seed = 1; seed <= 9; ++seed) {
+      RunRecord& run = results.runs.emplace_back();
+      run.spec = {.scene = "s",
+                  .scene_file = "",
+                  .twin = "live",
+                  .system = BuiltIn("oracle"),
+                  .seed = seed};
+      run.scores["ate_rmse_m"] = {
+          .value = 0.02, .unit = unit, .alignment = "se3", .n = 9, .absent = ""};
+    }
+    WriteFileAtomically(folder / name, ToJson(results));
+    return (folder / name).string();
+  };
+  const std::string metres = write("m.json", "m"), millimetres = write("mm.json", "mm");
+  std::string said;
+  EXPECT_EQ(Exit({"compare", metres, metres}), kAllPassed);
+  EXPECT_EQ(Exit({"compare", metres, millimetres}, &said), kBadInput);
+  EXPECT_THAT(said, HasSubstr("mm.json: ate_rmse_m of the run s/live/oracle/1 has the unit 'mm'"));
+  EXPECT_EQ(Exit({"compare", millimetres, metres}), kBadInput);
   fs::remove_all(folder);
 }
 
