@@ -6,6 +6,7 @@
 
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
+#include "harness/io/png_palette.h"
 
 namespace aisle {
 namespace {
@@ -39,14 +40,39 @@ void CheckPngHeader(const std::string& bytes, const std::string& file) {
   }
 }
 
+cv::Mat Decoded(const std::string& bytes) {
+  const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8U,
+                        const_cast<char*>(bytes.data()));  // imdecode only reads
+  return cv::imdecode(encoded, cv::IMREAD_UNCHANGED);
+}
+
+/// An index that the palette has no colour for is decoded as black: a mover would be static.
+void CheckPalette(const std::string& bytes, const std::string& file) {
+  std::size_t entries = 0;
+  const auto greys = WithIndicesForColours(bytes, &entries);
+  if (!greys) return;
+  const cv::Mat decoded = Decoded(*greys);
+  if (decoded.empty()) throw InputError(file, 0, "damaged PNG image");
+  cv::Mat1b indices;
+  cv::extractChannel(decoded, indices, 0);
+  double most = 0;
+  cv::Point at;
+  cv::minMaxLoc(indices, nullptr, &most, nullptr, &at);
+  if (most < static_cast<double>(entries)) return;
+  throw InputError(file, 0,
+                   fmt::format("the pixel ({}, {}) has the index {:g}, "
+                               "but the palette has only {} entries: save the image with its whole "
+                               "palette, or as grey",
+                               at.x, at.y, most, entries));
+}
+
 /// Whatever the PNG holds, as it is.
 cv::Mat ReadPng(const std::filesystem::path& path) {
   const std::string bytes = ReadFile(path);
   CheckPngHeader(bytes, path.string());
-  const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8U,
-                        const_cast<char*>(bytes.data()));  // imdecode only reads
-  const cv::Mat image = cv::imdecode(encoded, cv::IMREAD_UNCHANGED);
+  const cv::Mat image = Decoded(bytes);
   if (image.empty()) throw InputError(path.string(), 0, "damaged PNG image");
+  CheckPalette(bytes, path.string());
   return image;
 }
 

@@ -18,12 +18,12 @@ void WriteVectorPfm(const std::filesystem::path& path, const cv::Mat3f& vectors)
 void CheckImageName(const std::filesystem::path& path);
 
 /// A PNG as 8-bit grey: colours are weighed as the eye does, 16 bits lose their lower byte. The
-/// size is read from its header before anything is decoded. Throws InputError when it is no PNG or
-/// is larger than 16384 pixels either way.
+/// size is read from its header before anything is decoded. Throws InputError when it is no PNG, is
+/// larger than 16384 pixels either way, or has an index beyond its palette.
 cv::Mat1b ReadGreyPng(const std::filesystem::path& path);
 
 /// A mask of any PNG: 255 where a pixel is not black, 0 else. Grey (8 or 16 bits), colours, and
-/// palettes as DAVIS has them, whose entry 0 is black. Throws InputError.
+/// palettes as DAVIS has them, whose entry 0 is black. Throws InputError as ReadGreyPng does.
 cv::Mat1b ReadMaskPng(const std::filesystem::path& path);
 
 /// A PFM or OpenEXR image of three channels: linear, B, G, R. Throws InputError.

@@ -9,6 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "harness/io/crc32.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
 
@@ -86,6 +87,58 @@ TEST_F(FloatImageTest, RefusesAPngOfAbsurdlyManyPixelsBeforeItIsDecoded) {
       ADD_FAILURE();
     } catch (const InputError& error) {
       EXPECT_THAT(error.what(), testing::HasSubstr("has 16384x16384 pixels; at most 67108864"));
+    }
+  }
+}
+
+std::string BigEndian(std::uint32_t value) {
+  std::string bytes;
+  for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 0xff);
+  return bytes;
+}
+
+std::string Chunk(const std::string& name, const std::string& data) {
+  return BigEndian(static_cast<std::uint32_t>(data.size())) + name + data +
+         BigEndian(Crc32(name + data));
+}
+
+/// A row of four pixels of so many bits; zlib's stream holds it as it is.
+std::string IndexedPng(char bits, const std::string& packed_row, const std::string& palette,
+                       const std::string& between = "") {
+  const std::string row = std::string(1, '\0') + packed_row;  // not filtered
+  const auto size = static_cast<char>(row.size());
+  std::uint32_t a = 1, b = 0;
+  for (const char byte : row) {
+    a = (a + static_cast<unsigned char>(byte)) % 65521;
+    b = (b + a) % 65521;
+  }
+  const std::string stream = std::string("\x78\x01\x01", 3) + size + '\0' +
+                             static_cast<char>(~size) + '\xff' + row + BigEndian(b << 16 | a);
+  return "\x89PNG\r\n\x1a\n" +
+         Chunk("IHDR", BigEndian(4) + BigEndian(1) + bits + std::string("\3\0\0\0", 4)) +
+         Chunk("PLTE", palette) + between + Chunk("IDAT", stream) + Chunk("IEND", "");
+}
+
+/// Decoders take what the palette has no colour for as black.
+TEST_F(FloatImageTest, AnIndexBeyondThePaletteIsNoBlack) {
+  const std::string three("\0\0\0\x80\0\0\0\x80\0", 9);
+  const std::string opaque = Chunk("tRNS", "\xff");
+  for (const std::string& between : {std::string(), opaque}) {
+    const cv::Mat1b mask =
+        ReadMaskPng(Write("good.png", IndexedPng(8, std::string("\0\1\2\0", 4), three, between)));
+    EXPECT_EQ(cv::Vec4b(mask(0, 0), mask(0, 1), mask(0, 2), mask(0, 3)), cv::Vec4b(0, 255, 255, 0));
+    for (const auto read : {+[](const fs::path& file) { ReadMaskPng(file); },
+                            +[](const fs::path& file) { ReadGreyPng(file); }}) {
+      for (const auto& [bits, row] : {std::pair(char{8}, std::string("\0\1\3\0", 4)),
+                                      std::pair(char{2}, std::string("\x1c"))}) {
+        try {
+          read(Write("bad.png", IndexedPng(bits, row, three, between)));
+          ADD_FAILURE() << int{bits};
+        } catch (const InputError& error) {
+          EXPECT_THAT(error.what(), testing::HasSubstr("bad.png: the pixel (2, 0) has the index 3, "
+                                                       "but the palette has only 3 entries"));
+        }
+      }
     }
   }
 }
