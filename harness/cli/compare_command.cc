@@ -11,6 +11,7 @@
 #include "harness/judge/missing.h"
 #include "harness/record/provenance.h"
 #include "harness/record/record_json.h"
+#include "harness/record/units.h"
 #include "harness/report/compare_text.h"
 #include "harness/report/page/compare_page.h"
 #include "harness/report/page/page.h"
@@ -29,8 +30,10 @@ struct Options {
 
 /// A report's folder, or a results file such as a baseline.
 Results ReadEither(const std::string& path) {
-  return std::filesystem::is_directory(path) ? ReadResults(path)
-                                             : ResultsFromJson(ReadFile(path), path);
+  Results results = std::filesystem::is_directory(path) ? ReadResults(path)
+                                                        : ResultsFromJson(ReadFile(path), path);
+  CheckUnits(results, path);
+  return results;
 }
 
 ComparedNight NightOf(const std::string& path, const Results& results) {

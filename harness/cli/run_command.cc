@@ -30,6 +30,7 @@
 #include "harness/judge/gate.h"
 #include "harness/record/history.h"
 #include "harness/record/provenance.h"
+#include "harness/record/units.h"
 #include "harness/report/picture/video.h"
 #include "harness/report/report.h"
 
@@ -125,6 +126,7 @@ std::optional<Results> ReadBaseline(const Options& options, const PlanFile& plan
   if (baseline.runs.empty()) {
     throw InputError(path.string(), 0, "has no runs; make a new one with `aisle baseline DIR`");
   }
+  CheckUnits(baseline, path.string());
   if (const std::string blind = BlindFor(baseline); !blind.empty()) {
     fmt::print(stderr, "aisle: warning: {}\n", blind);
   }

@@ -180,6 +180,11 @@ const std::vector<ScoreDescription>& ScoreNames() {
 
 bool IsScoreName(const std::string& name) { return Describe(name) != nullptr; }
 
+std::string UnitOf(const std::string& name) {
+  const ScoreDescription* description = Describe(name);
+  return description == nullptr ? std::string() : description->unit;
+}
+
 bool IsShare(const std::string& name) {
   const ScoreDescription* description = Describe(name);
   return description != nullptr && description->is_share;

@@ -19,6 +19,9 @@ const std::vector<ScoreDescription>& ScoreNames();
 /// Whether a run can have a score of that name.
 bool IsScoreName(const std::string& name);
 
+/// The unit of its values; empty for what is no score.
+std::string UnitOf(const std::string& name);
+
 /// Whether it is a share, from 0 to 1; false for what is no score.
 bool IsShare(const std::string& name);
 

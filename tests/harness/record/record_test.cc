@@ -8,6 +8,7 @@
 
 #include "harness/io/input_error.h"
 #include "harness/record/frames_csv.h"
+#include "harness/record/units.h"
 #include "tests/harness/record/night.h"
 
 namespace aisle {
@@ -34,6 +35,23 @@ TEST_F(RecordTest, ResultsReadBackAsTheyWere) {
   const auto record = ReadRun(results.runs[0].spec, folder_);
   ASSERT_TRUE(record);
   EXPECT_EQ(ToJson(*record), ToJson(results.runs[0]));
+}
+
+TEST_F(RecordTest, AUnitThatIsNotTheScoresOwnIsAnError) {
+  Results results = MakeNight({.scenes = 1, .systems = {"oracle"}}, folder_);
+  EXPECT_NO_THROW(CheckUnits(results, "x"));
+  Score& score = results.runs[0].scores.at("ate_rmse_m");
+  score.unit = "mm";
+  try {
+    CheckUnits(results, "x");
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("x: ate_rmse_m of the run "));
+    EXPECT_THAT(error.what(), testing::HasSubstr("has the unit 'mm', which cannot be compared: "
+                                                 "expected 'm'"));
+  }
+  score.value = {};
+  EXPECT_NO_THROW(CheckUnits(results, "x")) << "nothing is held against anything";
 }
 
 TEST_F(RecordTest, ACountThatIsNoneIsSaidWithItsRunAndKey) {
