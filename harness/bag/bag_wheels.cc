@@ -1,12 +1,13 @@
 #include "harness/bag/bag_wheels.h"
 
-#include <Eigen/Cholesky>
 #include <map>
 #include <set>
 
+#include "harness/bag/odometry_covariance.h"
 #include "harness/common/seconds.h"
 #include "harness/io/input_error.h"
 #include "harness/io/nearest_word.h"
+#include "harness/io/trajectory.h"
 #include "harness/ros/sensor.h"
 
 namespace aisle {
@@ -150,9 +151,23 @@ std::map<std::int64_t, Reading> Readings(const Bag& bag, const std::string& topi
   return readings;
 }
 
-bool IsCovariance(const Matrix6d& matrix) {
-  return matrix.allFinite() && matrix.isApprox(matrix.transpose(), 1e-9) &&
-         matrix.llt().info() == Eigen::Success;
+/// Whether all say how well they know their twists. No motion leads to the first: an odometer that
+/// has just begun may say anything of it.
+bool AllSayCovariances(const std::map<std::int64_t, Reading>& readings, const std::string& topic,
+                       const std::string& file) {
+  bool all = true;
+  for (auto at = std::next(readings.begin()); at != readings.end(); ++at) {
+    const Matrix6d& covariance = at->second.twist_covariance;
+    if (const std::string fault = CovarianceFault(covariance); !fault.empty()) {
+      throw InputError(
+          file, 0,
+          fmt::format("twist.covariance of the message of {} at {} s: {}; record it again with "
+                      "covariances that are right, or with zeros, which stand for unknown ones",
+                      topic, FormatSeconds(at->first), fault));
+    }
+    all = all && SaysCovariance(covariance);
+  }
+  return all;
 }
 
 /// In order.
@@ -183,10 +198,7 @@ WheelTrack ReadBagWheels(const Bag& bag, const std::string& topic, const std::st
   WheelTrack track;
   track.T_base_left = StaticFrames(bag, file).Between(
       FrameName(base), FrameName(FrameOfImages(bag, left_topic, file)));
-  // No motion leads to the first: an odometer that has just begun may say nothing of it.
-  const bool all_say = std::all_of(std::next(readings.begin()), readings.end(), [](const auto& at) {
-    return IsCovariance(at.second.twist_covariance);
-  });
+  const bool all_say = AllSayCovariances(readings, topic, file);
   for (const auto& [stamp_ns, reading] : readings) {
     const double seconds =
         track.poses.empty() ? 0 : ToSeconds(stamp_ns - track.poses.back().stamp_ns);

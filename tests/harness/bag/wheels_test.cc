@@ -35,7 +35,8 @@ struct RobotBag {
                              {"base_link", "mast", {0.3, 0.1, 1}, 0.5},
                              {"mast", "left_optical", {0.05, 0, 0.1}, -0.2},
                              {"base_link", "laser", {0.2, 0, 0.1}, 0}};
-  double variance = 1e-4;  ///< of every part of the twist
+  double variance = 1e-4;                                            ///< of every part of the twist
+  std::vector<std::pair<std::pair<int, int>, double>> entries = {};  ///< of one message's instead
   bool second_body = false;
 
   void Write(const fs::path& file) const {
@@ -48,6 +49,9 @@ struct RobotBag {
       OdometryReading reading;
       reading.T_odom_base.translation().x() = 0.02 * k;
       reading.twist_covariance.diagonal().setConstant(k == 0 ? 0 : variance);  // it has just begun
+      for (const auto& [at, value] : entries) {
+        if (k == 4) reading.twist_covariance(at.first, at.second) = value;
+      }
       const std::string body = second_body && k == 5 ? "trailer" : base;
       writer.Write(odom, kStart + k * kStepNs, OdometryMessage(header, body, reading));
     }
@@ -122,6 +126,43 @@ TEST_F(BagWheelsTest, CovarianceOfAMotionIsTheTwistsTimesItsTime) {
   RobotBag silent;
   silent.variance = 0;  // the usual way to say nothing
   EXPECT_TRUE(Read(silent).covariances.empty());
+}
+
+/// As sensor_msgs/Imu has it in writing, and as simulators write what they do not measure.
+TEST_F(BagWheelsTest, WhatRosCallsUnknownIsUnknown) {
+  RobotBag robot;
+  robot.entries = {{{0, 0}, -1}};
+  EXPECT_TRUE(Read(robot).covariances.empty()) << "not available";
+  robot.entries = {{{2, 2}, 0}};
+  EXPECT_TRUE(Read(robot).covariances.empty()) << "nothing can be weighed by a variance of zero";
+  robot.entries = {{{2, 2}, 1e12}, {{0, 5}, 5e-5}, {{5, 0}, 5e-5}};
+  const WheelTrack track = Read(robot);
+  ASSERT_EQ(track.covariances.size(), 10u);
+  EXPECT_NEAR(track.covariances[4](2, 2), 1e12 * 0.02 * 0.02, 1);
+  EXPECT_NEAR(track.covariances[4](0, 5), 5e-5 * 0.02 * 0.02, 1e-12);
+}
+
+TEST_F(BagWheelsTest, CovariancesThatNoMotionHasAreNamed) {
+  const auto why_not = [&](const decltype(RobotBag::entries)& entries) {
+    RobotBag robot;
+    robot.entries = entries;
+    return WhyNot(robot);
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(why_not({{{0, 1}, nan}}),
+              HasSubstr("drive.mcap: twist.covariance of the message of /odom at "
+                        "1600000000.080000000 s: [1] is nan, not a finite number"));
+  EXPECT_THAT(why_not({{{5, 5}, -1e-4}}), HasSubstr("[35] is -0.0001, but a variance is from 0"));
+  EXPECT_THAT(why_not({{{1, 1}, 1e300}}), HasSubstr("[7] is 1e+300, but a variance is from 0"));
+  EXPECT_THAT(why_not({{{0, 5}, 5e-5}}), HasSubstr("[30] is 0 and [5] is 5e-05"));
+  EXPECT_THAT(why_not({{{0, 5}, 1}, {{5, 0}, 1}}), HasSubstr("[30] is 1, more than"));
+  EXPECT_THAT(why_not({{{0, 1}, 9e-5},
+                       {{1, 0}, 9e-5},
+                       {{1, 2}, 9e-5},
+                       {{2, 1}, 9e-5},
+                       {{0, 2}, -9e-5},
+                       {{2, 0}, -9e-5}}),
+              HasSubstr("not positive semidefinite"));
 }
 
 TEST_F(BagWheelsTest, MistakesAreNamed) {
