@@ -3,23 +3,25 @@
 #include "harness/bag/bag_trajectory.h"
 #include "harness/cli/bag_notes.h"
 #include "harness/io/input_error.h"
-#include "harness/io/trajectory.h"
+#include "harness/io/trajectory_text.h"
 #include "harness/score/step_difference.h"
 
 namespace aisle {
 namespace {
 
-/// A file as named, and what is known of its format.
+/// A file as named, and what is known of its format. Its text is read once: it may be a pipe.
 struct PoseFile {
   std::string name;
+  TextFile text;                           ///< of a file that is not a bag
   std::optional<BagTopic> topic;           ///< of a bag
-  std::optional<TrajectoryFormat> format;  ///< of a file that is none; absent: it does not tell
+  std::optional<TrajectoryFormat> format;  ///< of the text; absent: it does not tell
 };
 
 PoseFile Recognise(const std::string& name, const std::string& format) {
-  PoseFile file{.name = name, .topic = BagTopicFromText(name), .format = std::nullopt};
+  PoseFile file{.name = name, .text = {}, .topic = BagTopicFromText(name), .format = std::nullopt};
   if (file.topic) return file;
-  file.format = format.empty() ? TellTrajectoryFormat(name) : TrajectoryFormatFromName(format);
+  file.text = ReadTextFile(name);
+  file.format = format.empty() ? TellTrajectoryFormat(file.text) : TrajectoryFormatFromName(format);
   return file;
 }
 
@@ -32,9 +34,9 @@ PoseFile Recognise(const std::string& name, const std::string& format) {
 }
 
 /// Of a file whose format is known.
-PosesRead Read(const PoseFile& file, const std::string& times) {
+PosesRead Read(const PoseFile& file, const std::optional<TextFile>& times) {
   if (!file.topic) {
-    return {.poses = ReadTrajectory(file.name, *file.format, times),
+    return {.poses = ReadTrajectory(file.text, *file.format, times),
             .format = Describe(*file.format),
             .note = {}};
   }
@@ -45,8 +47,8 @@ PosesRead Read(const PoseFile& file, const std::string& times) {
 
 /// In the order of columns in which it moves as the truth does.
 PosesRead ReadLikeTruth(const PoseFile& file, const Trajectory& truth) {
-  const auto read_as = [&](TrajectoryFormat format) {
-    return Read({.name = file.name, .topic = std::nullopt, .format = format}, "");
+  const auto read_as = [&](TrajectoryFormat format) -> PosesRead {
+    return {.poses = ReadTrajectory(file.text, format), .format = Describe(format), .note = {}};
   };
   const PosesRead first = read_as(TrajectoryFormat::kEuroc);
   const PosesRead last = read_as(TrajectoryFormat::kTum);
@@ -98,7 +100,9 @@ AllPosesRead ReadPoseFiles(const PoseFiles& files) {
   for (const std::string& file : files.estimates) {
     all.push_back(Recognise(file, files.format_estimate));
   }
-  const std::string times = TimesFor(files, all);
+  const std::string times_file = TimesFor(files, all);
+  std::optional<TextFile> times;
+  if (!times_file.empty()) times = ReadTextFile(times_file);
   AllPosesRead read{.truth = Read(all.front(), times), .estimates = {}};
   for (std::size_t i = 1; i < all.size(); ++i) {
     const bool is_told = all[i].topic || all[i].format;

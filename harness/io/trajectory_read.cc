@@ -5,7 +5,7 @@
 #include "harness/contract/rigid.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
-#include "harness/io/trajectory.h"
+#include "harness/io/trajectory_text.h"
 
 namespace aisle {
 namespace {
@@ -47,7 +47,7 @@ std::optional<TrajectoryFormat> FormatByTitles(const std::vector<std::string_vie
 /// The data lines of a file, one after the other.
 class Table {
  public:
-  explicit Table(const fs::path& path) : text_(ReadFile(path)), row_{path, 0, {}} { Restart(); }
+  explicit Table(const TextFile& file) : text_(file.text), row_{file.name, 0, {}} { Restart(); }
 
   /// Before the first line again.
   void Restart() {
@@ -59,7 +59,7 @@ class Table {
   const Row* Next() {
     while (at_ < text_.size()) {
       const std::size_t end = std::min(text_.find('\n', at_), text_.size());
-      Split(std::string_view(text_).substr(at_, end - at_));
+      Split(text_.substr(at_, end - at_));
       at_ = end + 1;
       ++row_.line;
       if (row_.fields.empty()) continue;
@@ -90,7 +90,7 @@ class Table {
     }
   }
 
-  const std::string text_;
+  const std::string_view text_;
   std::size_t at_ = 0;
   Row row_;
   std::optional<TrajectoryFormat> titles_;
@@ -300,7 +300,7 @@ std::size_t KittiFrame(const Row& row, std::size_t rows_above) {
 }
 
 /// The time of every frame that the file lists.
-std::vector<std::int64_t> KittiTimes(const fs::path& times) {
+std::vector<std::int64_t> KittiTimes(const TextFile& times) {
   std::vector<std::int64_t> stamps;
   Table table(times);
   const StampUnit unit = UnitOfStamps(&table);
@@ -311,20 +311,19 @@ std::vector<std::int64_t> KittiTimes(const fs::path& times) {
   return stamps;
 }
 
-Trajectory ReadKitti(const fs::path& path, const fs::path& times) {
-  Table table(path);
+Trajectory ReadKitti(const TextFile& file, const std::optional<TextFile>& times) {
+  Table table(file);
   Trajectory trajectory;
   StampOrder order(RowOrder::kRising);
-  const std::vector<std::int64_t> stamps =
-      times.empty() ? std::vector<std::int64_t>{} : KittiTimes(times);
+  const std::vector<std::int64_t> stamps = times ? KittiTimes(*times) : std::vector<std::int64_t>{};
   for (const Row* row = &table.First(); row != nullptr; row = table.Next()) {
     const std::size_t frame = KittiFrame(*row, trajectory.size());
-    if (!times.empty() && frame >= stamps.size()) {
-      row->Fail(
-          fmt::format("frame {} has no time: {} has {}", frame, times.string(), stamps.size()));
+    if (times && frame >= stamps.size()) {
+      row->Fail(fmt::format("frame {} has no time: {} has {}", frame, times->name.string(),
+                            stamps.size()));
     }
     const std::int64_t stamp_ns =
-        times.empty() ? static_cast<std::int64_t>(frame) * kKittiStepNs : stamps[frame];
+        times ? stamps[frame] : static_cast<std::int64_t>(frame) * kKittiStepNs;
     order.Check(*row, stamp_ns, fmt::format("frame {}", frame));
     trajectory.push_back({stamp_ns, KittiPose(*row)});
   }
@@ -368,8 +367,14 @@ TrajectoryFormat TrajectoryFormatFromName(const std::string& name) {
   throw InputError("trajectory format '" + Printable(name) + "': expected tum, kitti or euroc");
 }
 
+TextFile ReadTextFile(const fs::path& path) { return {.name = path, .text = ReadFile(path)}; }
+
 std::optional<TrajectoryFormat> TellTrajectoryFormat(const fs::path& path) {
-  Table table(path);
+  return TellTrajectoryFormat(ReadTextFile(path));
+}
+
+std::optional<TrajectoryFormat> TellTrajectoryFormat(const TextFile& file) {
+  Table table(file);
   const Row& row = table.First();
   const std::size_t count = row.fields.size();
   if (count == kKittiNumbers) return TrajectoryFormat::kKitti;
@@ -384,7 +389,7 @@ std::optional<TrajectoryFormat> TellTrajectoryFormat(const fs::path& path) {
     const bool in_ns = UnitOfStamps(&table) == StampUnit::kNanoseconds && whole;
     if (titles == TrajectoryFormat::kEuroc && !in_ns) {
       throw InputError(
-          path.string(), 0,
+          file.name.string(), 0,
           "its titles put qw first, as EuRoC's do, but its first column is not a time in integer "
           "nanoseconds: use EuRoC's times, or TUM's columns, seconds and 'tx ty tz qx qy qz qw'");
     }
@@ -410,8 +415,16 @@ fs::path KittiTimesBeside(const fs::path& poses) {
 
 Trajectory ReadTrajectory(const fs::path& path, TrajectoryFormat format, const fs::path& times,
                           RowOrder order) {
-  if (format == TrajectoryFormat::kKitti) return ReadKitti(path, times);
-  Table table(path);
+  const TextFile file = ReadTextFile(path);
+  std::optional<TextFile> stamps;
+  if (format == TrajectoryFormat::kKitti && !times.empty()) stamps = ReadTextFile(times);
+  return ReadTrajectory(file, format, stamps, order);
+}
+
+Trajectory ReadTrajectory(const TextFile& file, TrajectoryFormat format,
+                          const std::optional<TextFile>& times, RowOrder order) {
+  if (format == TrajectoryFormat::kKitti) return ReadKitti(file, times);
+  Table table(file);
   if (format == TrajectoryFormat::kEuroc) return ReadStamped(&table, EurocPose, order);
   const StampUnit unit = UnitOfStamps(&table);
   return ReadStamped(

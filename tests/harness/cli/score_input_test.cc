@@ -1,9 +1,13 @@
 #include "harness/cli/score_input.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
+#include <sys/stat.h>
 #include <unistd.h>
+
+#include <thread>
 
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
@@ -135,6 +139,39 @@ TEST_F(ScoreInputTest, AFormatOfItsOwnIsTakenAtItsWord) {
   EXPECT_LT(LargestTurnDeg(read.estimates.front().poses, poses), 1e-6);
   EXPECT_EQ(read.truth.format, "EuRoC, qw first");
   EXPECT_EQ(read.estimates.front().note, "");
+}
+
+/// `--truth <(...)`: what has been read of a pipe is gone.
+TEST_F(ScoreInputTest, APipeIsReadOnce) {
+  const Trajectory poses = Circle(Eigen::Matrix3d::Identity());
+  std::vector<std::thread> writers;
+  const auto pipe = [&](const std::string& name, const std::string& text) {
+    const std::string file = (folder_ / name).string();
+    fs::create_directories(folder_);
+    EXPECT_EQ(::mkfifo(file.c_str(), 0600), 0);
+    writers.emplace_back([=] {
+      const int end = ::open(file.c_str(), O_WRONLY);
+      EXPECT_EQ(::write(end, text.data(), text.size()), static_cast<ssize_t>(text.size()));
+      ::close(end);
+    });
+    return file;
+  };
+  std::string times;
+  for (const StampedPose& pose : poses) times += FormatSeconds(pose.stamp_ns) + "\n";
+  const PoseFiles files{
+      .truth = pipe("truth", FormatTrajectory(poses, TrajectoryFormat::kTum)),
+      .estimates = {pipe("a", Rows(poses, Order::kFirst)),
+                    pipe("b", FormatTrajectory(poses, TrajectoryFormat::kKitti)),
+                    Write("c", FormatTrajectory(poses, TrajectoryFormat::kKitti))},
+      .times = pipe("times", times)};
+  const AllPosesRead read = ReadPoseFiles(files);
+  for (std::thread& writer : writers) writer.join();
+  EXPECT_EQ(read.truth.poses.size(), poses.size());
+  for (const PosesRead& estimate : read.estimates) {
+    ASSERT_EQ(estimate.poses.size(), poses.size());
+    EXPECT_LT(LargestTurnDeg(estimate.poses, poses), 1e-6);
+    EXPECT_EQ(estimate.poses.back().stamp_ns, poses.back().stamp_ns);
+  }
 }
 
 TEST_F(ScoreInputTest, ATruthThatDoesNotTellIsAskedFor) {
