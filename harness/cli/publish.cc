@@ -16,16 +16,16 @@ namespace aisle {
 namespace {
 
 /// The nights of one suite share a file beside their folders. What is in the way is said, and costs
-/// the night its place among the trends alone.
-bool TryToRemember(const Results& results, const std::filesystem::path& out) {
+/// the night its place among the trends alone. Returns it; empty where all is well.
+std::string TryToRemember(const Results& results, const std::filesystem::path& out) {
   const std::string replaced = NightReplaced(HistoryPath(out), results, out);
   if (!replaced.empty()) fmt::print(stderr, "aisle: warning: {}\n", replaced);
   try {
     AppendToHistory(HistoryPath(out), results, out);
-    return true;
+    return "";
   } catch (const MachineError& trouble) {
     fmt::print(stderr, "aisle: the trends will not include this run: {}\n", trouble.what());
-    return false;
+    return trouble.what();
   }
 }
 
@@ -60,8 +60,9 @@ ReportOptions WithHistory(const Results& results, const std::filesystem::path& o
   options.history_file = HistoryPath(out);
   try {
     options.history = ReadHistory(options.history_file, results.suite);
-  } catch (const MachineError&) {
-    return options;  // whoever files nights there says what is wrong with it
+  } catch (const MachineError& trouble) {
+    options.history_trouble = trouble.what();
+    return options;
   }
   // The page of a night knows nothing of later ones.
   std::erase_if(options.history,
@@ -73,9 +74,11 @@ ReportOptions WithHistory(const Results& results, const std::filesystem::path& o
 
 int Publish(const Results& results, const std::filesystem::path& out,
             const PublishOptions& options) {
-  const bool remembered = !options.remember || TryToRemember(results, out);
-  WriteReport(results, out,
-              remembered && options.remember ? WithHistory(results, out) : AboutNight(out));
+  const std::string trouble = options.remember ? TryToRemember(results, out) : "";
+  ReportOptions about =
+      options.remember && trouble.empty() ? WithHistory(results, out) : AboutNight(out);
+  if (!trouble.empty()) about.history_trouble = trouble;
+  WriteReport(results, out, about);
   if (!options.allure.empty()) WriteAllure(results, out, options.allure);
   if (options.json) {
     fmt::print("{}", ToJson(results));
@@ -85,7 +88,7 @@ int Publish(const Results& results, const std::filesystem::path& out,
   }
   if (options.failure != 0) return options.failure;
   if (!AllPassed(results)) return kVerdictFailed;
-  return remembered ? kAllPassed : kOwnFailure;
+  return trouble.empty() ? kAllPassed : kOwnFailure;
 }
 
 }  // namespace aisle

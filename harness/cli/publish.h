@@ -14,7 +14,8 @@ std::filesystem::path HistoryPath(const std::filesystem::path& out);
 /// folder's plan sets.
 ReportOptions AboutNight(const std::filesystem::path& out);
 
-/// The same with the nights up to this one; without them where this one was not filed.
+/// The same with the nights up to this one; without them where this one was not filed, or where
+/// their file cannot be read, which `history_trouble` says then.
 ReportOptions WithHistory(const Results& results, const std::filesystem::path& out);
 
 /// Takes away what a report says of its runs, so that nobody takes the last night's word for the

@@ -38,7 +38,14 @@ int Rebuild(const Options& options) {
     fmt::print("tables: {}\n", place.file);
     return kAllPassed;
   }
-  WriteReport(results, folder, WithHistory(results, folder));
+  const ReportOptions about = WithHistory(results, folder);
+  if (!about.history_trouble.empty()) {
+    fmt::print(stderr,
+               "aisle: warning: the trends do not include this run: {}; if the file is damaged, "
+               "move it away to start a new one\n",
+               about.history_trouble);
+  }
+  WriteReport(results, folder, about);
   if (!options.allure.empty()) WriteAllure(results, folder, options.allure);
   if (options.json) {
     fmt::print("{}", ToJson(results));

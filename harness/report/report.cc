@@ -2,6 +2,7 @@
 
 #include "harness/io/file.h"
 #include "harness/report/junit.h"
+#include "harness/report/markup/html.h"
 #include "harness/report/page/answer.h"
 #include "harness/report/page/cost_section.h"
 #include "harness/report/page/drive_outcome.h"
@@ -79,6 +80,10 @@ void WriteReport(const Results& results, const fs::path& report_dir, const Repor
   std::string body =
       VerdictSection(results, scenes, links, SinceWhen(options.history), options.limits);
   if (trends) body += "<p><a href=\"trends.html\">How the nights went</a></p>\n";
+  if (!options.history_trouble.empty()) {
+    body += fmt::format("<p class=\"trouble\">The trends do not include this run: {}</p>\n",
+                        Escape(options.history_trouble));
+  }
   if (const std::string drives = DriveOverview(scenes, links); !drives.empty()) {
     body += "<section>" + drives + "</section>\n";
   }

@@ -13,6 +13,7 @@ namespace aisle {
 struct ReportOptions {
   std::vector<TrendPoint> history = {};             ///< all nights of the suite, this one the last
   std::filesystem::path history_file = {};          ///< whose folder holds the nights' reports
+  std::string history_trouble = {};                 ///< why the nights are not known; else empty
   std::map<std::string, std::string> systems = {};  ///< a sentence of each built-in one, by name
   std::size_t limits = 0;                           ///< that the suites set; 0: not known
 };

@@ -150,7 +150,8 @@ TEST_F(SuiteRunTest, AHistoryThatCannotBeWrittenIsSaidInTheEveningAndCostsNoRepo
   const std::size_t warned = said.text.find("warning: the trends will not include this run");
   EXPECT_LT(warned, said.text.find("[1/1]")) << said.text;
   EXPECT_THAT(said.text, HasSubstr("the trends will not include this run"));
-  EXPECT_TRUE(fs::exists(fs::path(Out("a")) / "index.html"));
+  EXPECT_THAT(ReadFile(fs::path(Out("a")) / "index.html"),
+              HasSubstr("The trends do not include this run: "));
   EXPECT_EQ(ResultsOf(Out("a")).runs.size(), 1u);
 }
 

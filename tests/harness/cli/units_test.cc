@@ -9,9 +9,11 @@
 #include "harness/cli/publish.h"
 #include "harness/cli/score_masks.h"
 #include "harness/cli/system_choice.h"
+#include "harness/io/file.h"
 #include "harness/io/image.h"
 #include "harness/io/input_error.h"
 #include "harness/plugs/systems.h"
+#include "tests/harness/cli/exit.h"
 #include "tests/harness/record/night.h"
 
 namespace aisle {
@@ -207,6 +209,30 @@ TEST(WithHistory, APageKnowsOfItsOwnNightAndThoseBeforeAlone) {
   Results unfiled = nights[2];
   unfiled.started = "2026-01-02T12:00:00Z";
   EXPECT_TRUE(WithHistory(unfiled, folder / "other").history.empty()) << "that was not filed";
+  EXPECT_EQ(WithHistory(unfiled, folder / "other").history_trouble, "");
+  fs::remove_all(folder);
+}
+
+TEST(WithHistory, AFileThatIsDamagedIsToldByTheCommandAndThePage) {
+  const fs::path folder = fs::temp_directory_path() / fmt::format("aisle_damaged_{}", ::getpid());
+  const fs::path out = folder / "night";
+  Results night = MakeNight({.scenes = 1, .frames = 30, .systems = {"oracle"}}, out);
+  night.suite = "nightly";
+  night.started = "2026-01-01T02:00:00Z";
+  WriteFileAtomically(out / "results.json", ToJson(night));
+  WriteFileAtomically(HistoryPath(out), std::string(5000, 'x'));
+  const std::string why = HistoryPath(out).string() + ": cannot write: file is not a database";
+  std::string said;
+  EXPECT_EQ(Exit({"report", out.string()}, &said), kAllPassed) << said;
+  EXPECT_THAT(said,
+              testing::HasSubstr("aisle: warning: the trends do not include this run: " + why +
+                                 "; if the file is damaged, move it away to start a new one\n"));
+  EXPECT_THAT(ReadFile(out / "index.html"),
+              testing::HasSubstr("The trends do not include this run: " + why));
+  fs::remove(HistoryPath(out));
+  EXPECT_EQ(Exit({"report", out.string()}, &said), kAllPassed);
+  EXPECT_THAT(said, testing::Not(testing::HasSubstr("trends")));
+  EXPECT_THAT(ReadFile(out / "index.html"), testing::Not(testing::HasSubstr("do not include")));
   fs::remove_all(folder);
 }
 
