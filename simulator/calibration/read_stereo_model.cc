@@ -1,10 +1,10 @@
-#include <fstream>
+#include <sstream>
 #include <stdexcept>
 
+#include "simulator/calibration/calibration_text.h"
 #include "simulator/calibration/stereo_model.h"
 #include "simulator/calibration/yaml_numbers.h"
 #include "simulator/common/decimal.h"
-#include "simulator/common/input_file.h"
 #include "simulator/common/printable.h"
 
 namespace aisle::sim {
@@ -209,11 +209,12 @@ StereoModel ReadOpenCv(const Files& files) {
 // --- KITTI ---------------------------------------------------------------------------------------
 
 /// The one row of that name.
-std::vector<double> KittiRow(const std::string& file, const std::string& name) {
+std::vector<double> KittiRow(const std::string& file, const std::string& text,
+                             const std::string& name) {
   const auto fail = [&](const std::string& why) {
     throw std::runtime_error(fmt::format("{}: {}: {}", file, name, why));
   };
-  std::ifstream stream(file);
+  std::istringstream stream(text);
   std::vector<double> numbers;
   for (std::string line; std::getline(stream, line);) {
     if (!line.starts_with(name + ":")) continue;
@@ -228,9 +229,9 @@ std::vector<double> KittiRow(const std::string& file, const std::string& name) {
   return numbers;
 }
 
-StereoModel ReadKitti(const std::string& file) {
+StereoModel ReadKitti(const std::string& file, const std::string& text) {
   const Eigen::Matrix3d none = Eigen::Matrix3d::Identity();
-  const auto left = KittiRow(file, "P0"), right = KittiRow(file, "P1");
+  const auto left = KittiRow(file, text, "P0"), right = KittiRow(file, text, "P1");
   StereoModel model;
   SetPinhole({left[0], left[5], left[2], left[6]}, &model.left);
   SetPinhole({right[0], right[5], right[2], right[6]}, &model.right);
@@ -239,10 +240,8 @@ StereoModel ReadKitti(const std::string& file) {
   return model;
 }
 
-bool IsKitti(const std::string& file) {
-  constexpr std::uintmax_t kMostBytes = 1 << 20;
-  if (!InputFileError(file, kMostBytes).empty()) return false;  // OpenCalibration says why
-  std::ifstream stream(file);
+bool IsKitti(const std::string& text) {
+  std::istringstream stream(text);
   std::string word;
   return stream >> word && word == "P0:";
 }
@@ -250,7 +249,10 @@ bool IsKitti(const std::string& file) {
 // --- All of them ---------------------------------------------------------------------------------
 
 StereoModel ReadAny(const std::vector<std::string>& names) {
-  if (names.size() == 1 && IsKitti(names[0])) return ReadKitti(names[0]);
+  if (names.size() == 1) {
+    const std::string text = CalibrationText(names[0]);
+    if (IsKitti(text)) return ReadKitti(names[0], text);
+  }
   Files files;
   for (const std::string& name : names) files.push_back(OpenCalibration(name));
   const CalibrationFile& first = files[0];

@@ -1,10 +1,8 @@
 #include "simulator/calibration/yaml_numbers.h"
 
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 
-#include "simulator/common/input_file.h"
+#include "simulator/calibration/calibration_text.h"
 #include "simulator/common/yaml_faults.h"
 
 namespace aisle::sim {
@@ -36,13 +34,7 @@ void CalibrationFile::Fail(const std::string& key, const std::string& why) const
 }
 
 CalibrationFile OpenCalibration(const std::string& file) {
-  constexpr std::uintmax_t kMostBytes = 1 << 20;
-  if (const std::string wrong = InputFileError(file, kMostBytes); !wrong.empty()) {
-    throw std::runtime_error(wrong);
-  }
-  std::ostringstream bytes;
-  bytes << std::ifstream(file, std::ios::binary).rdbuf();
-  std::string text = bytes.str();
+  std::string text = CalibrationText(file);
   // OpenCV's own dialect. The line stays, empty, so that those below keep their numbers.
   if (text.starts_with("%YAML:")) text.erase(0, std::min(text.find('\n'), text.size()));
   if (const std::vector<YamlFault> faults = YamlFaults(text); !faults.empty()) {

@@ -372,6 +372,20 @@ std::string TextOf(const std::string& file) {
   return {(std::istreambuf_iterator<char>(stream)), {}};
 }
 
+/// Windows' editors set it before UTF-8.
+TEST_F(StereoModelTest, AByteOrderMarkChangesNothing) {
+  for (const auto& files : {Kalibr(), Euroc(), CameraInfo(), OpenCv(), Kitti()}) {
+    const RectifiedPair plain = Rectified(ReadStereoModel(files));
+    for (const std::string& file : files) {
+      Put(fs::path(file).filename().string(), "\xef\xbb\xbf" + TextOf(file));
+    }
+    const RectifiedPair marked = Rectified(ReadStereoModel(files));
+    EXPECT_EQ(marked.fx, plain.fx) << files[0];
+    EXPECT_EQ(marked.cx, plain.cx) << files[0];
+    EXPECT_EQ(marked.baseline_m, plain.baseline_m) << files[0];
+  }
+}
+
 /// An alias may stand for its own list, or for 10^9 numbers.
 TEST_F(StereoModelTest, AliasesHaveNoEnd) {
   EXPECT_THAT(WhyNot({Put("own.yaml", "cam0: {camera_model: pinhole, intrinsics: &a [*a]}\n")}),
