@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "harness/io/input_error.h"
+#include "harness/io/json_text.h"
 #include "harness/io/system_spec_json.h"
 
 namespace aisle {
@@ -103,11 +104,11 @@ Json RecordToJson(const RunRecord& record) {
   if (record.flaky) json["flaky"] = true;
   if (!record.system_version.empty()) json["system_version"] = record.system_version;
   if (!record.last_words.empty()) json["last_words"] = record.last_words;
-  json["scores"] = Json::object();
-  for (const auto& [name, score] : record.scores) json["scores"][name] = ScoreToJson(score);
+  std::map<std::string, Json> scores;
+  for (const auto& [name, score] : record.scores) scores[name] = ScoreToJson(score);
+  json["scores"] = scores;  // at once: one by one, each would be held against all before it
   json["notes"] = record.notes;
-  json["artifacts"] = Json::object();
-  for (const auto& [name, path] : record.artifacts) json["artifacts"][name] = path;
+  json["artifacts"] = record.artifacts;
   return json;
 }
 
@@ -164,7 +165,7 @@ std::string ToJson(const RunRecord& record) { return Dump(RecordToJson(record));
 
 RunRecord RecordFromJson(const std::string& text, const std::string& file) {
   try {
-    return RecordFromJson(Json::parse(text));
+    return RecordFromJson(ParseJson(text));
   } catch (const std::exception& error) {
     throw InputError(file, 0, fmt::format("not a run record: {}", Printable(error.what(), 200)));
   }

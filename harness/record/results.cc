@@ -3,6 +3,7 @@
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/io/json_numbers.h"
+#include "harness/io/json_text.h"
 #include "harness/record/record_json.h"
 
 namespace aisle {
@@ -95,7 +96,7 @@ std::string ToJson(const Results& results) {
 
 Results ResultsFromJson(const std::string& text, const std::string& file) {
   try {
-    return FromJson(Json::parse(text));
+    return FromJson(ParseJson(text));
   } catch (const std::exception& error) {
     throw InputError(file, 0, "not a results file: " + Printable(error.what(), 200));
   }

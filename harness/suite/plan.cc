@@ -5,6 +5,7 @@
 
 #include "harness/io/input_error.h"
 #include "harness/io/json_numbers.h"
+#include "harness/io/json_text.h"
 #include "harness/io/system_spec_json.h"
 #include "harness/record/record.h"
 #include "harness/record/record_json.h"
@@ -120,7 +121,7 @@ std::string ToJson(const PlanFile& plan) {
 
 PlanFile PlanFromJson(const std::string& text, const std::string& file) {
   try {
-    return FromJson(Json::parse(text));
+    return FromJson(ParseJson(text));
   } catch (const std::exception& error) {
     throw InputError(file, 0, "not a plan: " + Printable(error.what(), 200));
   }
@@ -176,12 +177,10 @@ Shard ShardFromText(const std::string& text) {
 
 std::vector<RunSpec> TakeShard(const std::vector<RunSpec>& specs, const Shard& shard) {
   std::vector<RunSpec> taken;
-  std::vector<std::tuple<std::string, std::string, std::uint64_t>> groups;
+  std::map<std::tuple<std::string, std::string, std::uint64_t>, std::size_t> numbers;
   for (const RunSpec& spec : specs) {
     const std::tuple group{spec.scene, spec.twin, spec.seed};
-    auto at = std::find(groups.begin(), groups.end(), group);
-    if (at == groups.end()) at = groups.insert(groups.end(), group);
-    const auto number = static_cast<std::size_t>(at - groups.begin());
+    const std::size_t number = numbers.emplace(group, numbers.size()).first->second;
     if (number % shard.count == shard.index - 1) taken.push_back(spec);
   }
   return taken;

@@ -170,17 +170,19 @@ void YamlReader::Texts(const Key& key, std::vector<std::string>* values, const C
   const auto node = Find(key);
   if (!node) return;
   values->clear();
+  std::set<std::string> seen;
   for (const YAML::Node& item : Items(*node, key)) {
     const std::string text = item.IsScalar() ? item.Scalar() : "";
     if (text.empty()) {
       Expected(item, key, "a text");
-    } else if (std::find(values->begin(), values->end(), text) != values->end()) {
+    } else if (seen.contains(text)) {
       issues_->Add(PlaceOf(item), PathOf(key.name),
                    fmt::format("duplicate '{}'; keep one of them", Printable(text)));
     } else if (const std::string mistake = check(text); !mistake.empty()) {
       issues_->Add(PlaceOf(item), PathOf(key.name),
                    fmt::format("'{}': {}", Printable(text), mistake));
     } else {
+      seen.insert(text);
       values->push_back(text);
     }
   }
@@ -197,10 +199,11 @@ void YamlReader::CountOrList(const Key& key, std::vector<std::uint64_t>* values,
     if (!count || *count < 1 || *count > most) return Expected(*node, key, expected);
     for (int i = 1; i <= *count; ++i) read.push_back(static_cast<std::uint64_t>(i));
   } else {
+    std::set<std::uint64_t> seen;
     for (const YAML::Node& item : Items(*node, key)) {
       const auto number = PlainNumber<std::uint64_t>(item);
       if (!number) return Expected(item, key, expected);
-      if (std::find(read.begin(), read.end(), *number) != read.end()) {
+      if (!seen.insert(*number).second) {
         return issues_->Add(PlaceOf(item), PathOf(key.name),
                             fmt::format("duplicate {}; keep one of them", *number));
       }
@@ -214,12 +217,13 @@ void YamlReader::Numbers(const Key& key, std::vector<double>* values, Range rang
   const auto node = Find(key);
   if (!node) return;
   std::vector<double> read;
+  std::set<double> seen;
   for (const YAML::Node& item : Items(*node, key)) {
     const auto number = PlainNumber<double>(item);
     if (!number || !(*number >= range.low && *number <= range.high)) {
       return Expected(item, key, "a list of numbers" + ToText(range));
     }
-    if (std::find(read.begin(), read.end(), *number) != read.end()) {
+    if (!seen.insert(*number).second) {
       return issues_->Add(PlaceOf(item), PathOf(key.name),
                           fmt::format("duplicate {:g}; keep one of them", *number));
     }

@@ -78,6 +78,15 @@ class SuiteTest : public testing::Test {
   fs::path root_;
 };
 
+/// A megabyte of them is soon held apart.
+TEST_F(SuiteTest, ManySeedsAreHeldApartInLittleTime) {
+  std::string text = std::string(kGood) + "seeds: [";
+  constexpr std::uint64_t kSeeds = 100'000;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) text += fmt::format("{},", seed);
+  EXPECT_EQ(Load(text + "0]\n").seeds.size(), kSeeds + 1);
+  EXPECT_THAT(Complaint(text + "1]\n"), HasSubstr("seeds: duplicate 1; keep one of them"));
+}
+
 TEST_F(SuiteTest, DefaultsAreTheLiveTwinAndNineSeeds) {
   const Suite suite = Load(kGood);
   EXPECT_EQ(suite.name, "quick");
