@@ -318,6 +318,54 @@ TEST(StatedRectificationTest, DepthIsRightWhereThePrincipalPointsDiffer) {
   }
 }
 
+/// Why a recording that states its rectification is none; empty where it is one.
+std::string WhyNot(double focal_px, double centre_px, double baseline_m) {
+  StereoRecording recording;
+  std::array<StatedRectification, 2> stated;
+  for (std::size_t side = 0; side < 2; ++side) {
+    CameraCalibration& camera = side == 0 ? recording.cameras.left : recording.cameras.right;
+    camera.width = kWidth;
+    camera.height = kHeight;
+    camera.fx = camera.fy = 200;
+    stated[side].projection.diagonal() << focal_px, focal_px, 1;
+    stated[side].projection(0, 2) = stated[side].projection(1, 2) = centre_px;
+  }
+  stated[1].projection(0, 3) = -focal_px * baseline_m;
+  recording.cameras.stated = stated;
+  recording.pairs.push_back({kStart_ns, "left", "right"});
+  recording.read_image = [](std::size_t, int) { return Noise(1); };
+  try {
+    MakeRecordedSequence(recording, "a recording", "name");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(StatedRectificationTest, IsThatOfACameraWithinItsBounds) {
+  constexpr double kMore = 1 + 1e-9, kNone = std::numeric_limits<double>::quiet_NaN();
+  for (const double focal_px : {0.1, 200.0, 1e6}) EXPECT_EQ(WhyNot(focal_px, 160, 0.1), "");
+  for (const double centre_px : {-1e6, 0.0, 1e6}) EXPECT_EQ(WhyNot(200, centre_px, 0.1), "");
+  for (const double baseline_m : {1e-6, 0.1, 1e8 / kMore}) {
+    EXPECT_EQ(WhyNot(200, 160, baseline_m), "") << baseline_m;
+  }
+  for (const double focal_px : {0.1 / kMore, 0.0, -200.0, 1e6 * kMore, kNone}) {
+    EXPECT_THAT(WhyNot(focal_px, 160, 0.1),
+                testing::AllOf(HasSubstr("a recording: according to its calibration"),
+                               HasSubstr("expected pixels, 0.1 to 1e+06")))
+        << focal_px;
+  }
+  for (const double centre_px : {-1e6 * kMore, 1e6 * kMore, kNone}) {
+    EXPECT_THAT(WhyNot(200, centre_px, 0.1), HasSubstr("and the principal point")) << centre_px;
+  }
+  for (const double baseline_m : {-0.1, 0.0, 1e8 * kMore, kNone}) {
+    EXPECT_THAT(WhyNot(200, 160, baseline_m),
+                HasSubstr("which must be greater than 0 and at most 1e+08"))
+        << baseline_m;
+  }
+  EXPECT_THAT(WhyNot(200, 160, -0.1), testing::EndsWith(": left and right are swapped"));
+}
+
 /// Wheels that were recorded beside the images come before those that truth would imply.
 TEST_F(Recording, BringsItsOwnWheels) {
   const std::vector<std::array<cv::Mat1b, 2>> pairs(3, {Noise(1), Noise(2)});
