@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 #include <tuple>
 
 namespace aisle::sim {
@@ -51,8 +52,9 @@ std::vector<std::string> Issues::Messages() const {
            std::tuple(b.mark.file, b.mark.line, b.mark.column);
   });
   std::vector<std::string> messages;
-  for (const Issue& issue : sorted) {  // a key that several halls share is read with each of them
-    if (messages.empty() || messages.back() != issue.text) messages.push_back(issue.text);
+  std::set<std::string_view> told;  // a key that several halls share is read with each of them
+  for (const Issue& issue : sorted) {
+    if (told.insert(issue.text).second) messages.push_back(issue.text);
   }
   return messages;
 }

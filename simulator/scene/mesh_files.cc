@@ -46,18 +46,23 @@ void FindOfPerson(PersonSpec* person, Scene* scene, Issues* issues) {
   }
 }
 
-}  // namespace
-
-void FindMeshFiles(Scene* scene, Issues* issues) {
-  Find(&scene->hall.mesh, "hall.mesh", *scene, &scene->mesh_files, issues);
-  for (std::size_t i = 0; i < scene->props.size(); ++i) {
-    PropSpec& prop = scene->props[i];
+void FindOfPremises(Premises* premises, Scene* scene, Issues* issues) {
+  Find(&premises->hall.mesh, "hall.mesh", *scene, &scene->mesh_files, issues);
+  for (std::size_t i = 0; i < premises->props.size(); ++i) {
+    PropSpec& prop = premises->props[i];
     const std::string key = fmt::format("props[{}]", i);
     if (!prop.mesh.name.empty() && !prop.model.empty()) {
       issues->Add(prop.mesh.mark, key, "it has both a `model` and a `mesh`; keep one of them");
     }
     Find(&prop.mesh, key + ".mesh", *scene, &scene->mesh_files, issues);
   }
+}
+
+}  // namespace
+
+void FindMeshFiles(Scene* scene, Issues* issues) {
+  FindOfPremises(scene, scene, issues);
+  for (Premises& premises : scene->dealt) FindOfPremises(&premises, scene, issues);
   for (PersonSpec& person : scene->people) FindOfPerson(&person, scene, issues);
   for (const Files* files : {&scene->mesh_files, &scene->motion_files}) {
     scene->files.insert(scene->files.end(), files->begin(), files->end());

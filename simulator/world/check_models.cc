@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 
 #include "simulator/mesh/kept/kept_model.h"
 #include "simulator/scene/crowd.h"
@@ -19,12 +20,8 @@ class Checker {
   Checker(const Scene& scene, const AssetLibrary& assets) : scene_(scene), assets_(assets) {}
 
   std::vector<std::string> Run() {
-    CheckMesh(scene_.hall.mesh, "hall.mesh");
-    for (const PropSpec& prop : scene_.props) {
-      CheckMesh(prop.mesh, "props.mesh");
-      if (!prop.mesh.name.empty()) continue;
-      Try(prop.model_mark, "props.model", [&] { assets_.Prop(prop.model); });
-    }
+    CheckPremises(scene_);
+    for (const Premises& premises : scene_.dealt) CheckPremises(premises);
     for (const MechanismSpec& mechanism : scene_.mechanisms) CheckMechanism(mechanism);
     for (const PersonSpec& person : scene_.people) CheckPerson(person);
     for (const VehicleSpec& vehicle : scene_.vehicles) CheckVehicle(vehicle);
@@ -34,7 +31,9 @@ class Checker {
 
  private:
   void Say(const Mark& mark, const std::string& whose, const std::string& what) {
-    messages_.push_back(fmt::format("{}: {}: {}", PlaceText(scene_.files, mark), whose, what));
+    std::string message = fmt::format("{}: {}: {}", PlaceText(scene_.files, mark), whose, what);
+    // What several halls share is checked with each of them.
+    if (told_.insert(message).second) messages_.push_back(std::move(message));
   }
 
   /// Whether a look-up does not throw; else it is told why.
@@ -50,6 +49,15 @@ class Checker {
 
   void CheckMesh(const MeshSpec& mesh, const std::string& whose) {
     if (!mesh.name.empty()) Try(mesh.mark, whose, [&] { CheckUserModel(mesh.file); });
+  }
+
+  void CheckPremises(const Premises& premises) {
+    CheckMesh(premises.hall.mesh, "hall.mesh");
+    for (const PropSpec& prop : premises.props) {
+      CheckMesh(prop.mesh, "props.mesh");
+      if (!prop.mesh.name.empty()) continue;
+      Try(prop.model_mark, "props.model", [&] { assets_.Prop(prop.model); });
+    }
   }
 
   void CheckMechanism(const MechanismSpec& mechanism) {
@@ -148,6 +156,7 @@ class Checker {
   const Scene& scene_;
   const AssetLibrary& assets_;
   std::vector<std::string> messages_;
+  std::set<std::string> told_;
 };
 
 }  // namespace

@@ -140,6 +140,41 @@ TEST_F(HallFilesTest, EachThatASeedMayDealIsChecked) {
               ElementsAre(HasSubstr("rig.steps[0]: in halls/narrow with seed 2 at [8.00, -1.")));
 }
 
+TEST_F(HallFilesTest, MeshesOfEachThatASeedMayDealAreFound) {
+  const std::string props = "props: [{at: [17, 2], mesh: shelf.glb}]\n";
+  Write("halls/own.yaml", kNarrow + props);
+  const std::string drive = Drive("vary: {hall: [halls/wide, halls/own]}\n");
+  const std::string shelf = PathOf("halls/shelf.glb");
+  EXPECT_THAT(CheckScene(drive),
+              ElementsAre(testing::AllOf(StartsWith(PathOf("halls/own.yaml") + ":8:"),
+                                         HasSubstr("props[0].mesh: no such file: " + shelf))));
+  Write("halls/shelf.glb", "glTF");
+  const Scene scene = LoadScene(drive);
+  EXPECT_THAT(scene.mesh_files, ElementsAre(shelf));
+  EXPECT_THAT(SceneFiles(drive), testing::Contains(shelf));
+  ASSERT_EQ(Seeded(scene, 2).props.size(), 1u);
+  EXPECT_EQ(Seeded(scene, 2).props[0].mesh.file, shelf);
+}
+
+TEST_F(HallFilesTest, MeshesOfEachThatASeedMayDealCountByTheirBytes) {
+  Write("halls/own.yaml", kNarrow + std::string("props: [{at: [17, 2], mesh: shelf.glb}]\n"));
+  const std::string drive = Drive("vary: {hall: [halls/wide, halls/own]}\n");
+  const auto made_of = [&](const char* bytes) {
+    Write("halls/shelf.glb", bytes);
+    return EssenceOf(drive, true);
+  };
+  const std::string own = made_of("glTF a");
+  EXPECT_EQ(made_of("glTF a"), own);
+  EXPECT_NE(made_of("glTF b"), own);
+}
+
+TEST_F(HallFilesTest, AMistakeThatHallsShareIsToldOnce) {
+  const std::string both = "props: [{at: [17, 2], model: drum, mesh: none.glb}]\n";
+  EXPECT_THAT(CheckScene(Drive("vary: {hall: [halls/wide, halls/narrow]}\n" + both)),
+              ElementsAre(HasSubstr("it has both a `model` and a `mesh`"),
+                          HasSubstr("no such file: " + PathOf("none.glb"))));
+}
+
 TEST_F(HallFilesTest, AreScenesByThemselvesWhereTheyHaveViews) {
   const Scene hall = LoadScene(PathOf("halls/wide.yaml"));
   EXPECT_EQ(hall.frames, 2);

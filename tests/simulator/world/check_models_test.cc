@@ -63,6 +63,19 @@ TEST(CheckModels, KnowsWhoHasForks) {
   EXPECT_THAT(taken_by("spaceship"), ElementsAre(HasSubstr("there is no model 'spaceship'")));
 }
 
+TEST(CheckModels, KnowsThePropsOfEachHallThatASeedMayDeal) {
+  const AssetLibrary assets(kAssets);
+  const Scene plain = ParseScene(kHall, "s.yaml");
+  const Scene strange = ParseScene(kHall + "props: [{at: [6, 2], model: spaceship}]\n", "s.yaml");
+  Scene dealing = plain;
+  dealing.dealt = {plain, plain};
+  EXPECT_THAT(CheckModels(dealing, assets), IsEmpty());
+  dealing.dealt = {plain, strange, strange};
+  EXPECT_THAT(CheckModels(dealing, assets),
+              ElementsAre(HasSubstr("props.model: there is no model 'spaceship'")))
+      << "once, though two halls have it";
+}
+
 /// A mast may go as far as the model lifts, of which its forks take a little at the start.
 TEST(CheckModels, KnowsHowFarAMastGoes) {
   const AssetLibrary assets(kAssets);
