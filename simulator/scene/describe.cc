@@ -404,7 +404,8 @@ void Describe(Fields& f, Scene& scene) {
            DescribeVehicle);
   f.ListOf({"mechanisms",
             "other moving objects: doors, chains, conveyors, things that are pushed and carried",
-            "[{name: gate, at: [6, 1], parts: [{size_m: [0.1, 2, 2], joint: {kind: slider}}]}]"},
+            "[{name: gate, at: [6, 1], parts: [{size_m: [0.1, 2, 2], joint: {kind: slider, "
+            "moves: [{at_s: 3, to_m: 2}]}}]}]"},
            &scene.mechanisms, DescribeMechanism);
   f.ListOf({"beams", "moving lights: beacons, and sunlight through windows",
             "[{name: beacon, at_m: [7, 1.5, 2.2], rate_hz: 1.2}]"},
