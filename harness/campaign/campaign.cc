@@ -5,6 +5,7 @@
 #include <sstream>
 #include <tuple>
 
+#include "harness/campaign/cache_bounds.h"
 #include "harness/campaign/command_files.h"
 #include "harness/campaign/equal_runs.h"
 #include "harness/campaign/external_run.h"
@@ -14,7 +15,6 @@
 #include "harness/contract/exit_code.h"
 #include "harness/io/duration.h"
 #include "harness/io/file.h"
-#include "harness/io/frame_store.h"
 #include "harness/io/input_error.h"
 #include "harness/io/places.h"
 #include "harness/record/provenance.h"
@@ -57,17 +57,6 @@ RunRecord FailedRun(const Job& job, const ProcessResult& result, const RunLimits
   SayWhoMadeIt(&record);
   return record;
 }
-
-/// What the campaign left for others of its runs must not fill the disk before it is over.
-void ShrinkCaches() {
-  constexpr std::uintmax_t kMostBytes = std::uintmax_t{12} << 30;
-  ShrinkStore(CacheDir() / "frames", kMostBytes);
-  ShrinkStore(CacheDir() / "taught", kMostBytes / 4);
-  ShrinkStore(CacheDir() / "datasets", kMostBytes, std::chrono::hours(24));
-}
-
-/// Between caches that are looked at, file by file, while others that run want to be guarded.
-constexpr double kShrinkEvery_ms = 60e3;
 
 bool IsFailure(const std::optional<RunRecord>& record) {
   return record && !IsComplete(record->status);
@@ -126,10 +115,7 @@ class Follower {
     modes_.PutBack();
     ++ended_;
     time_left_.Ended(job);
-    if (since_shrunk_.ElapsedMs() > kShrinkEvery_ms) {
-      ShrinkCaches();
-      since_shrunk_ = {};
-    }
+    caches_.Tick();
     const std::string id = RunId(job.spec);
     const bool exited = result.end == ProcessResult::End::kExited;
     if (exited && (result.code == kOwnFailure || result.code == kBadInput)) {
@@ -191,7 +177,9 @@ class Follower {
   std::size_t ended_ = 0;
   int failure_ = 0;
   TimeLeft time_left_{{}, {}};
-  Stopwatch watch_, since_shrunk_;
+  Stopwatch watch_;
+  /// What the runs leave for each other must not fill the disk before all are over.
+  CacheBounds caches_{CacheDir(), [watch = Stopwatch()] { return watch.ElapsedMs(); }};
 };
 
 /// Drives all of `jobs`; false when interrupted.
@@ -305,7 +293,7 @@ CampaignOutcome RunCampaign(const std::vector<Job>& jobs, const CampaignOptions&
       FileSecondAttempts(failed);
     }
   }
-  ShrinkCaches();
+  ShrinkCaches(CacheDir());
   outcome.wall_s = watch.ElapsedMs() * 1e-3;
   return outcome;
 }
