@@ -78,18 +78,17 @@ Head HeadOf(const std::vector<SceneRuns>& scenes) {
 }
 
 template <typename TextOf>
-NumberTable::Row RowOf(const std::string& name, const Head& head, const Cells& cells,
-                       const TextOf& text_of) {
-  NumberTable::Row row{.name = name, .cells = {}};
+std::vector<std::string> Texts(const Head& head, const Cells& cells, const TextOf& text_of) {
+  std::vector<std::string> texts;
   for (const std::string& rejection : head.rejections) {
     for (const std::string& base : head.bases) {
       const auto at = cells.find({rejection, base});
       const std::vector<double> errors =
           at == cells.end() ? std::vector<double>{} : Errors(at->second);
-      row.cells.push_back(errors.empty() ? "-" : text_of(errors));
+      texts.push_back(errors.empty() ? "-" : text_of(errors));
     }
   }
-  return row;
+  return texts;
 }
 
 }  // namespace
@@ -99,23 +98,37 @@ std::optional<NumberTable> BaseTable(const std::vector<SceneRuns>& scenes) {
   if (!head.compares) return std::nullopt;
   NumberTable table{.title = "Absolute trajectory error by rejection and base [m]",
                     .caption =
-                        "Upper head: what is rejected; lower head: whose tracking and mapping "
-                        "runs, the published ORB-SLAM2's or our own (plain). RMSE of the "
-                        "final track, rigid alignment (SE(3)); median over seeds.",
+                        "What is rejected, and on whose tracking and mapping: the published "
+                        "ORB-SLAM2's or our own (plain). RMSE of the final track, rigid alignment "
+                        "(SE(3)); median over seeds.",
+                    .group_head = "rejection",
                     .groups = head.rejections,
                     .columns = head.bases,
+                    .unit = "m",
                     .rows = {}};
   for (const SceneRuns& scene : scenes) {
     if (scene.twin != twin::kLive) continue;
     const Cells cells = CellsOf(scene);
     std::size_t seeds = 0;
     for (const auto& [cell, runs] : cells) seeds = std::max(seeds, CountSeeds(runs));
-    table.rows.push_back(RowOf(scene.scene, head, cells, MedianText));
+    table.rows.push_back({.name = scene.scene,
+                          .scene = scene.scene,
+                          .cells = Texts(head, cells, MedianText),
+                          .seeds = seeds,
+                          .intervals = {}});
     if (seeds < 2) continue;
-    table.rows.push_back(
-        RowOf(SpreadRowName(seeds, scene.scene), head, cells,
-              [](const std::vector<double>& errors) { return SpreadText(errors, ErrorText); }));
-    table.rows.back().spread = true;
+    table.rows.back().intervals = Texts(head, cells, [](const std::vector<double>& errors) {
+      return IntervalText(errors, ErrorText);
+    });
+    table.rows.push_back({.name = SpreadRowName(seeds, scene.scene),
+                          .scene = scene.scene,
+                          .cells = Texts(head, cells,
+                                         [](const std::vector<double>& errors) {
+                                           return SpreadText(errors, ErrorText);
+                                         }),
+                          .spread = true,
+                          .seeds = seeds,
+                          .intervals = {}});
   }
   return table;
 }

@@ -34,7 +34,7 @@ std::string WithTables(const std::string& page, const BlockPlace& place, const R
       fmt::format("Suite {}, {} runs, {} seed{}.\n\n", results.suite, results.runs.size(),
                   seeds.size(), seeds.size() == 1 ? "" : "s");
   return WithBlock(page, place,
-                   of + ToMarkdown(Titled(PaperTables(GroupByScene(results)), titled)) + "\n" +
+                   of + ToMarkdown(Titled(PaperTables(GroupByScene(results)), titled)) +
                        BlockFoot(results.provenance, results.rerun, results.started));
 }
 

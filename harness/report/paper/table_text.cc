@@ -1,5 +1,9 @@
+#include <algorithm>
+#include <set>
+
 #include "harness/report/block/markdown_text.h"
 #include "harness/report/markup/html.h"
+#include "harness/report/paper/spread.h"
 #include "harness/report/paper/tables.h"
 
 namespace aisle {
@@ -32,6 +36,58 @@ std::string LatexText(const std::string& text) {
     }
   }
   return safe;
+}
+
+/// What stands behind a median; empty where all rows are of one seed.
+std::string WhatCellsHold(const NumberTable& table) {
+  std::set<std::size_t> several;
+  for (const NumberTable::Row& row : table.rows) {
+    if (!row.intervals.empty()) several.insert(row.seeds);
+  }
+  if (several.empty()) return "";
+  const std::size_t fewest = *several.begin(), most = *several.rbegin();
+  std::string text = fewest == most ? fmt::format("Cells: of {} seeds", most)
+                                    : fmt::format("Cells: of {} to {} seeds", fewest, most);
+  if (HasInterval(most)) text += " the median and, in brackets, its 95 % interval (bootstrap)";
+  if (!HasInterval(fewest)) {
+    text += HasInterval(most) ? ", or of fewer than five, in parentheses, the least and the most"
+                              : " the median and, in parentheses, the least and the most";
+  }
+  return text + (HasInterval(most) ? "; the HTML report has the least and the most too." : ".");
+}
+
+std::string MarkdownHead(const NumberTable& table) {
+  std::string head = fmt::format("| scene | {} |", MarkdownText(table.group_head));
+  std::string rule = "|---|---|";
+  for (const std::string& column : table.columns) {
+    const std::string unit = table.unit.empty() ? "" : fmt::format(" [{}]", table.unit);
+    head += fmt::format(" {} |", MarkdownText(column + unit));
+    rule += "---:|";
+  }
+  return head + "\n" + rule + "\n";
+}
+
+/// One group's cells; nothing where the paper printed none of it.
+std::string MarkdownRow(const NumberTable& table, const NumberTable::Row& row, std::size_t group) {
+  const std::size_t width = table.columns.size();
+  std::string cells;
+  bool any = false;
+  for (std::size_t i = group * width; i < (group + 1) * width; ++i) {
+    any |= !row.cells[i].empty();
+    const bool has_interval =
+        !row.intervals.empty() && !row.intervals[i].empty() && row.cells[i] != "-";
+    cells += fmt::format(" {}{}{} |", row.cells[i], has_interval ? " " : "",
+                         has_interval ? row.intervals[i] : "");
+  }
+  if (!any) return "";
+  return fmt::format("| {} | {}{} |{}\n", MarkdownText(row.scene),
+                     MarkdownText(table.groups[group]), row.printed ? ", as printed" : "", cells);
+}
+
+bool HasMeasured(const NumberTable& table, const std::string& scene) {
+  return std::ranges::any_of(table.rows, [&](const NumberTable::Row& row) {
+    return row.scene == scene && !row.printed && !row.spread;
+  });
 }
 
 }  // namespace
@@ -71,19 +127,18 @@ std::string ToHtml(const std::vector<NumberTable>& tables) {
 std::string ToMarkdown(const std::vector<NumberTable>& tables) {
   std::string text;
   for (const NumberTable& table : tables) {
-    text += fmt::format("## {}\n\n{}\n\n| scene |", table.title, table.caption);
-    std::string rule = "|---|";
-    for (const std::string& group : table.groups) {
-      for (const std::string& column : table.columns) {
-        text += fmt::format(" {} {} |", MarkdownText(group), MarkdownText(column));
-        rule += "---:|";
-      }
-    }
-    text += "\n" + rule + "\n";
+    text += fmt::format("## {}\n\n{}\n\n", table.title, table.caption);
+    if (const std::string cells = WhatCellsHold(table); !cells.empty()) text += cells + "\n\n";
+    text += MarkdownHead(table);
     for (const NumberTable::Row& row : table.rows) {
-      text += "| " + MarkdownText(row.name) + " |";
-      for (const std::string& cell : row.cells) text += " " + cell + " |";
-      text += "\n";
+      if (row.spread || (row.printed && HasMeasured(table, row.scene))) continue;
+      for (std::size_t group = 0; group < table.groups.size(); ++group) {
+        text += MarkdownRow(table, row, group);
+        if (row.printed) continue;
+        for (const NumberTable::Row& other : table.rows) {
+          if (other.printed && other.scene == row.scene) text += MarkdownRow(table, other, group);
+        }
+      }
     }
     text += "\n";
   }

@@ -24,6 +24,7 @@ struct Kind {
   int number;  ///< of the paper's table
   const char* title;
   const char* caption;
+  const char* unit;  ///< of all columns; empty where they name their own
   std::vector<Column> columns;
 };
 
@@ -33,6 +34,7 @@ const std::vector<Kind>& Kinds() {
        "Moving objects",
        "Each object of each frame, found where the rectangles overlap by half (IoU 0.5) or more. "
        "The paper's Table 1.",
+       "",
        {{"moving", "objects_moving", 1, 0},
         {"found", "objects_found", 1, 0},
         {"missed", "objects_missed", 1, 0},
@@ -41,6 +43,7 @@ const std::vector<Kind>& Kinds() {
        "Detection of moving objects",
        "By rectangle, found where the overlap (IoU) is 0.5 or more; the paper's equations (12) to "
        "(14). The paper's Table 2.",
+       "",
        {{"precision [%]", "object_precision", 100, 1},
         {"recall [%]", "object_recall", 100, 1},
         {"IoU [%]", "object_iou", 100, 1}}},
@@ -48,6 +51,7 @@ const std::vector<Kind>& Kinds() {
        "Drift and absolute error",
        "KITTI's segments at 5, 10, … 40 m, all segments pooled; absolute error as RMSE after rigid "
        "alignment. The paper's Table 3 has KITTI's own lengths.",
+       "",
        {{"t rel [%]", "t_rel_short_percent", 1, 2},
         {"r rel [deg/100m]", "r_rel_short_deg_per_100m", 1, 2},
         {"t abs [m]", "ate_rmse_m", 1, 4}}},
@@ -55,6 +59,7 @@ const std::vector<Kind>& Kinds() {
        "Absolute trajectory error [m]",
        "Final track, rigid alignment (SE(3)), never scaled; median over seeds. The paper's Table "
        "4.",
+       "m",
        {{"RMSE", "ate_rmse_m", 1, 4},
         {"mean", "ate_mean_m", 1, 4},
         {"median", "ate_median_m", 1, 4},
@@ -63,10 +68,12 @@ const std::vector<Kind>& Kinds() {
        "Frames with a pose [%]",
        "What share of its drive each error above is of; a track with the hard part missing has a "
        "small error. Median over seeds. The paper states none.",
+       "%",
        {{"coverage", "coverage", 100, 1}}},
       {5,
        "Relative pose error, translation [m]",
        "From each frame to the next; median over seeds. The paper's Table 5.",
+       "m",
        {{"RMSE", "rpe_trans_rmse_m", 1, 4},
         {"mean", "rpe_trans_mean_m", 1, 4},
         {"median", "rpe_trans_median_m", 1, 4},
@@ -75,6 +82,7 @@ const std::vector<Kind>& Kinds() {
        "Time of the front end [ms]",
        "Mean per frame on this machine, in the caller's thread; tracking: features, stereo, pose, "
        "waiting for the map. The paper's Table 6.",
+       "ms",
        {{"dynamic", "ms_dynamic_mean", 1, 1},
         {"tracking", "ms_tracking_mean", 1, 1},
         {"front end", "ms_front_end_mean", 1, 1}}},
@@ -83,11 +91,13 @@ const std::vector<Kind>& Kinds() {
        "Final track, rigid alignment (SE(3)); median over seeds. What the paper says of its Fig. "
        "11, "
        "for its own method the bound over all four scenes.",
+       "m",
        {{"max", "ate_max_m", 1, 4}}},
       {kNotThePapers,
        "What movers cost",
        "RMSE of the final track over that of the same drive without people and vehicles (the twin "
        "empty): 1 where they cost nothing. The paper has no such twin.",
+       "",
        {{"penalty", "dynamic_penalty", 1, 2}}}};
   return kinds;
 }
@@ -122,12 +132,15 @@ bool HasNumber(const NumberTable::Row& row) {
                      [](const std::string& cell) { return cell != "-"; });
 }
 
-/// How the seeds differ; "-" where MedianScore would have none.
-std::string SpreadCell(const SceneRuns& scene, const std::string& system, const Column& column) {
+/// How the seeds differ, as `write` (SpreadText, IntervalText) says it; "-" where MedianScore would
+/// have none.
+template <typename Write>
+std::string SeedsCell(const SceneRuns& scene, const std::string& system, const Column& column,
+                      const Write& write) {
   for (const SystemRuns& runs : scene.systems) {
     if (runs.system != system || !MedianScore(runs.runs, column.score)) continue;
-    return SpreadText(ScoresOf(runs.runs, column.score),
-                      [&](double value) { return Text(value, column); });
+    return write(ScoresOf(runs.runs, column.score),
+                 [&](double value) { return Text(value, column); });
   }
   return "-";
 }
@@ -147,13 +160,42 @@ bool BelongsInto(const Kind& kind, const std::string& scene) {
 }
 
 template <typename CellOf>
-NumberTable::Row RowOf(const std::string& name, const std::vector<std::string>& systems,
-                       const std::vector<Column>& columns, const CellOf& cell) {
-  NumberTable::Row row{.name = name, .cells = {}};
+std::vector<std::string> CellsOf(const std::vector<std::string>& systems,
+                                 const std::vector<Column>& columns, const CellOf& cell) {
+  std::vector<std::string> cells;
   for (const std::string& system : systems) {
-    for (const Column& column : columns) row.cells.push_back(cell(system, column));
+    for (const Column& column : columns) cells.push_back(cell(system, column));
   }
-  return row;
+  return cells;
+}
+
+/// The medians, and of several seeds how they differ.
+std::vector<NumberTable::Row> RowsOf(const SceneRuns& scene,
+                                     const std::vector<std::string>& systems,
+                                     const std::vector<Column>& columns) {
+  const std::size_t seeds = SeedsOf(scene);
+  const auto differ = [&](const auto& write) {
+    return CellsOf(systems, columns, [&](const std::string& system, const Column& column) {
+      return SeedsCell(scene, system, column, write);
+    });
+  };
+  NumberTable::Row median{.name = scene.scene,
+                          .scene = scene.scene,
+                          .cells = CellsOf(systems, columns,
+                                           [&](const std::string& system, const Column& column) {
+                                             return Cell(scene, system, column);
+                                           }),
+                          .seeds = seeds,
+                          .intervals = {}};
+  if (seeds < 2) return {median};
+  median.intervals = differ(IntervalText);
+  return {median,
+          {.name = SpreadRowName(seeds, scene.scene),
+           .scene = scene.scene,
+           .cells = differ(SpreadText),
+           .spread = true,
+           .seeds = seeds,
+           .intervals = {}}};
 }
 
 /// Systems without any number in a table need no column in it.
@@ -170,7 +212,9 @@ void DropEmptyGroups(NumberTable* table) {
     if (!empty) continue;
     table->groups.erase(table->groups.begin() + static_cast<std::ptrdiff_t>(g));
     for (NumberTable::Row& row : table->rows) {
-      row.cells.erase(row.cells.begin() + at, row.cells.begin() + at + step);
+      for (std::vector<std::string>* cells : {&row.cells, &row.intervals}) {
+        if (!cells->empty()) cells->erase(cells->begin() + at, cells->begin() + at + step);
+      }
     }
   }
 }
@@ -181,8 +225,10 @@ std::optional<NumberTable::Row> PrintedRowOf(const std::string& name, const Kind
                                              const NumberTable& table) {
   const std::size_t width = kind.columns.size();
   NumberTable::Row row{.name = "as printed: " + name,
+                       .scene = name,
                        .cells = std::vector<std::string>(table.groups.size() * width),
-                       .printed = true};
+                       .printed = true,
+                       .intervals = {}};
   bool any = false;
   for (const PrintedRow& printed : PrintedTable(kind.number)) {
     const auto group = std::find(table.groups.begin(), table.groups.end(), printed.system);
@@ -240,21 +286,13 @@ std::vector<NumberTable> PaperTables(const std::vector<SceneRuns>& scenes) {
                       .caption = kind.caption,
                       .groups = SystemsOf(scenes),
                       .columns = {},
+                      .unit = kind.unit,
                       .rows = {}};
     for (const Column& column : kind.columns) table.columns.emplace_back(column.title);
     for (const SceneRuns& scene : scenes) {
       if (scene.twin != twin::kLive || !BelongsInto(kind, scene.scene)) continue;
-      const NumberTable::Row row = RowOf(
-          scene.scene, table.groups, kind.columns,
-          [&](const auto& system, const Column& column) { return Cell(scene, system, column); });
-      if (!HasNumber(row)) continue;
-      table.rows.push_back(row);
-      if (SeedsOf(scene) < 2) continue;
-      table.rows.push_back(RowOf(SpreadRowName(SeedsOf(scene), scene.scene), table.groups,
-                                 kind.columns, [&](const auto& system, const Column& column) {
-                                   return SpreadCell(scene, system, column);
-                                 }));
-      table.rows.back().spread = true;
+      const std::vector<NumberTable::Row> rows = RowsOf(scene, table.groups, kind.columns);
+      if (HasNumber(rows.front())) table.rows.insert(table.rows.end(), rows.begin(), rows.end());
     }
     if (table.rows.empty()) continue;
     DropEmptyGroups(&table);

@@ -10,14 +10,19 @@ namespace aisle {
 /// A table of numbers that can be written for a page, a wiki and a paper alike.
 struct NumberTable {
   std::string title;
-  std::string caption;              ///< unit, alignment, what a row is
-  std::vector<std::string> groups;  ///< systems; each spans all `columns`
+  std::string caption;                ///< unit, alignment, what a row is
+  std::string group_head = "system";  ///< what `groups` are
+  std::vector<std::string> groups;    ///< each spans all `columns`
   std::vector<std::string> columns;
+  std::string unit;  ///< of all columns; empty where they name their own
   struct Row {
     std::string name;
+    std::string scene;               ///< that it is of, or the paper's other data
     std::vector<std::string> cells;  ///< groups × columns; "-" where there is no number
     bool printed = false;            ///< by the paper, not measured here
     bool spread = false;             ///< how the seeds of the row above differ
+    std::size_t seeds = 1;
+    std::vector<std::string> intervals;  ///< one a cell (IntervalText); none of a single seed
   };
   std::vector<Row> rows;
 };
@@ -32,6 +37,8 @@ struct NumberTable {
 std::vector<NumberTable> PaperTables(const std::vector<SceneRuns>& scenes);
 
 std::string ToHtml(const std::vector<NumberTable>& tables);
+/// A row for each scene and group, and under it what the paper printed of them; intervals stand
+/// behind their medians. Rows of spread are left out: least and most are on the page alone.
 std::string ToMarkdown(const std::vector<NumberTable>& tables);
 /// Needs the package booktabs.
 std::string ToLatex(const std::vector<NumberTable>& tables);

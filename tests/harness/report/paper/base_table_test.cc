@@ -7,6 +7,7 @@ namespace aisle {
 namespace {
 
 using testing::ElementsAre;
+using testing::HasSubstr;
 
 RunRecord RunOf(const SystemSpec& system, double ate_m, std::uint64_t seed = 1) {
   RunRecord run;
@@ -40,6 +41,12 @@ TEST(BaseTable, PutsEachRejectionOnBothBases) {
               ElementsAre("1.0200", "0.1200", "0.2200", "0.0700", "-", "0.0030"));
   EXPECT_TRUE(table->rows[1].spread);
   EXPECT_EQ(table->rows[1].cells[0], "1.0100–1.0300");
+  EXPECT_THAT(
+      ToMarkdown({*table}),
+      HasSubstr("| scene | rejection | orbslam2 \\[m] | plain \\[m] |\n|---|---|---:|---:|\n"
+                "| paper/scene2 | nothing | 1.0200 (1.0100 to 1.0300) | "
+                "0.1200 (0.1100 to 0.1300) |\n"));
+  EXPECT_THAT(ToMarkdown({*table}), HasSubstr("| robust | - | 0.0030 (0.0030 to 0.0030) |\n"));
   // The variant stands there and in no other table.
   for (const NumberTable& other : PaperTables(GroupByScene(results))) {
     if (other.title == table->title) continue;

@@ -31,7 +31,10 @@ TEST(IntoPage, WritesTheTablesWithWhatTheyAreOf) {
                                       {.file = "page.md", .block = "tables"}, OneRun());
   EXPECT_TRUE(
       page.starts_with("Before.\n<!-- begin tables: slam -->\n\nSuite paper, 1 runs, 1 seed."));
-  EXPECT_THAT(page, HasSubstr("1.2500"));
+  EXPECT_THAT(page, HasSubstr("\n| scene | system | RMSE \\[m] |"));
+  EXPECT_THAT(page, HasSubstr("| paper/scene2 | orbslam2 | 1.2500 | - | - | - |\n"
+                              "| paper/scene2 | orbslam2, as printed | 0.8670 | 0.8500 |"));
+  EXPECT_THAT(page, testing::Not(HasSubstr("\n\n\n")));
   EXPECT_THAT(page,
               HasSubstr("`./aisle run scenes/suites/paper.yaml --out out/paper`; commit abc, "));
 }

@@ -77,6 +77,7 @@ TEST_F(PaperPageTest, TablesGiveTheMedianAndBeneathItTheLeastAndTheMost) {
   ASSERT_NE(table, tables.end());
   ASSERT_GE(table->rows.size(), 3u);
   EXPECT_EQ(table->rows[0].cells[0], fmt::format("{:.4f}", ate[1]));
+  EXPECT_EQ(table->rows[0].intervals[0], fmt::format("({:.4f} to {:.4f})", ate[0], ate[2]));
   EXPECT_TRUE(table->rows[1].spread);
   EXPECT_EQ(table->rows[1].cells[0], fmt::format("{:.4f}–{:.4f}", ate[0], ate[2]));
   EXPECT_TRUE(table->rows[2].printed);

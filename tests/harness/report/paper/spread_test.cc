@@ -15,6 +15,22 @@ TEST(SpreadTest, FewSeedsShowTheirRangeManyTheIntervalOfTheirMedianToo) {
   EXPECT_EQ(SpreadRowName(9, "s"), "9 seeds, least [95 % of the median] most: s");
 }
 
+TEST(SpreadTest, BesideAMedianStandsItsIntervalOrTheRangeOfFewSeeds) {
+  EXPECT_EQ(IntervalText({7}, Tenths), "");
+  EXPECT_EQ(IntervalText({3, 1, 2}, Tenths), "(1.0 to 3.0)");
+  EXPECT_EQ(IntervalText({2, 2, 2, 2, 90, 2, 2, 2, 2}, Tenths), "[2.0, 2.0]");
+  EXPECT_FALSE(HasInterval(4));
+  EXPECT_TRUE(HasInterval(5));
+}
+
+TEST(SpreadTest, TheIntervalIsThatOfTheSpread) {
+  const std::vector<double> values = {1, 2, 3, 4, 5, 6, 7, 8, 9};
+  std::string within = SpreadText(values, Tenths);
+  within = within.substr(within.find('['), within.find(']') + 1 - within.find('['));
+  within.replace(within.find("–"), std::string("–").size(), ", ");
+  EXPECT_EQ(IntervalText(values, Tenths), within);
+}
+
 TEST(SpreadTest, TheIntervalLiesWithinTheRangeAroundTheMedian) {
   const std::string text = SpreadText({1, 2, 3, 4, 5, 6, 7, 8, 9}, Tenths);
   double least = 0, low = 0, high = 0, most = 0;
