@@ -2,11 +2,13 @@
 
 #include <unistd.h>
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <set>
 #include <stdexcept>
 
 #include "harness/io/file.h"
@@ -84,6 +86,47 @@ class ScratchFolder {
   fs::path path_;
 };
 
+/// Of one scene, by number of threads.
+std::vector<ThreadTime> TimesOf(const std::vector<GrowthRow>& rows, const GrowthScene& scene) {
+  std::vector<ThreadTime> times;
+  for (const GrowthRow& row : rows) {
+    if (row.scene == scene) times.push_back({row.threads, row.cost.pair_ms});
+  }
+  std::ranges::sort(times, {}, &ThreadTime::threads);
+  return times;
+}
+
+std::string MeasuredRow(const GrowthRow& one, const ThreadTime& many) {
+  const double times_as_fast = one.cost.pair_ms / many.ms;
+  return fmt::format("| {} | {} | {:.0f} | {:.0f} | {:.2f} | {:.2f} |\n", one.scene.actors,
+                     many.threads, one.cost.pair_ms, many.ms, times_as_fast,
+                     times_as_fast / many.threads);
+}
+
+constexpr std::array<int, 3> kForecastThreads = {4, 8, 16};
+
+std::string FittedHead() {
+  std::string head, rule;
+  for (const int threads : kForecastThreads) {
+    head += fmt::format(" times as fast on {} |", threads);
+    rule += "---:|";
+  }
+  return fmt::format("| actors | serial share, fitted | residual, % |{}\n|---:|---:|---:|{}\n",
+                     head, rule);
+}
+
+std::string FittedRow(int actors, const ScalingFit& fit) {
+  const bool tells = fit.serial_share > 0;
+  std::string row =
+      fmt::format("| {} | {} | {:.1f} |", actors,
+                  tells ? fmt::format("{:.3f}", fit.serial_share) : "-", 100 * fit.residual);
+  for (const int threads : kForecastThreads) {
+    row += tells ? fmt::format(" {:.1f} |", SpeedUp(fit.serial_share, threads)) : " - |";
+  }
+  row += "\n";
+  return row;
+}
+
 }  // namespace
 
 std::string GrowthSceneText(const GrowthScene& scene) {
@@ -125,7 +168,7 @@ std::vector<GrowthSeries> GrowthPlan(const GrowthOptions& options) {
   for (const auto& [width, height] : {std::pair(1280, 720), {1241, 376}}) {
     add(options.threads, [&](GrowthScene* scene) { scene->width = width, scene->height = height; });
   }
-  if (options.threads != 1) add(1, [](GrowthScene*) {});
+  for (int threads = 1; threads < options.threads; threads *= 2) add(threads, [](GrowthScene*) {});
   return plan;
 }
 
@@ -168,8 +211,23 @@ std::string GrowthTable(const std::vector<GrowthRow>& rows) {
   return table;
 }
 
-double SerialShare(double one_ms, double many_ms, int threads) {
-  return std::clamp((threads * many_ms / one_ms - 1) / (threads - 1), 0.0, 1.0);
+std::optional<ScalingFit> FitScaling(const std::vector<ThreadTime>& times) {
+  constexpr std::size_t kParameters = 2;
+  std::set<int> counts;
+  for (const ThreadTime& time : times) counts.insert(time.threads);
+  if (counts.size() <= kParameters) return std::nullopt;
+  // ms = serial + parallel / threads, each equation over its ms: slow runs are noisier by as much.
+  const auto rows = static_cast<Eigen::Index>(times.size());
+  Eigen::MatrixX2d a(rows, 2);
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    const ThreadTime& time = times[static_cast<std::size_t>(i)];
+    a.row(i) << 1 / time.ms, 1 / (time.threads * time.ms);
+  }
+  const Eigen::VectorXd one = Eigen::VectorXd::Ones(rows);
+  const Eigen::Vector2d law = a.colPivHouseholderQr().solve(one);
+  const double freedom = static_cast<double>(times.size() - kParameters);
+  return ScalingFit{.serial_share = law[0] / law.sum(),
+                    .residual = (a * law - one).norm() / std::sqrt(freedom)};
 }
 
 double SpeedUp(double serial_share, int threads) {
@@ -177,24 +235,21 @@ double SpeedUp(double serial_share, int threads) {
 }
 
 std::string ScalingTable(const std::vector<GrowthRow>& rows) {
-  constexpr int kThreadsOfARun = 4;
-  std::string table;
+  std::string measured, fitted;
   for (const GrowthRow& one : rows) {
-    const auto many = std::ranges::find_if(
-        rows, [&](const GrowthRow& row) { return row.threads > 1 && row.scene == one.scene; });
-    if (one.threads != 1 || many == rows.end()) continue;
-    const double share = SerialShare(one.cost.pair_ms, many->cost.pair_ms, many->threads);
-    table += fmt::format("| {} | {} | {:.3f} |", one.scene.actors, many->threads, share);
-    for (const int cores : {4, 8, 16}) {
-      table += fmt::format(" {:.1f} | {:.1f} |", SpeedUp(share, cores),
-                           SpeedUp(share, kThreadsOfARun) * cores / kThreadsOfARun);
+    if (one.threads != 1) continue;
+    const std::vector<ThreadTime> times = TimesOf(rows, one.scene);
+    for (const ThreadTime& time : times) {
+      if (time.threads > 1) measured += MeasuredRow(one, time);
     }
-    table += '\n';
+    if (const auto fit = FitScaling(times)) fitted += FittedRow(one.scene.actors, *fit);
   }
-  if (table.empty()) return "";
-  return "| actors | threads | serial share | 4 cores | as 1 x 4 | 8 cores | as 2 x 4 "
-         "| 16 cores | as 4 x 4 |\n|---|---|---|---|---|---|---|---|---|\n" +
-         table;
+  if (measured.empty()) return "";
+  if (!fitted.empty()) fitted = fmt::format("\n{}{}", FittedHead(), fitted);
+  return fmt::format(
+      "| actors | threads | pair on one thread, ms | on all, ms | times as fast | efficiency |\n"
+      "|---:|---:|---:|---:|---:|---:|\n{}{}",
+      measured, fitted);
 }
 
 }  // namespace aisle

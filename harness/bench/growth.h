@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -57,15 +58,30 @@ std::vector<GrowthRow> MeasureGrowth(const GrowthOptions& options,
 /// A row a line, with the heading.
 std::string GrowthTable(const std::vector<GrowthRow>& rows);
 
-/// The share of a pair's work that is done one after the other, so that it takes `one_ms` on one
-/// thread and `many_ms` on several (Amdahl 1967); waiting for memory counts as such. In [0, 1].
-double SerialShare(double one_ms, double many_ms, int threads);
-/// How many times as fast it is then on more threads.
+/// What a pair takes on some number of threads.
+struct ThreadTime {
+  int threads = 1;
+  double ms = 0;
+};
+
+/// The law of Amdahl (1967) through such times: waiting for memory counts as serial work.
+struct ScalingFit {
+  double serial_share =
+      0;                ///< of the work, done one after the other; below 0 faster than all cores
+  double residual = 0;  ///< of the times over the law, standard deviation
+};
+
+/// The fit with the least relative error. None of less than three numbers of threads: the law has
+/// two parameters, so that any two times lie on it.
+std::optional<ScalingFit> FitScaling(const std::vector<ThreadTime>& times);
+
+/// How many times as fast as on one thread it is then on more.
 double SpeedUp(double serial_share, int threads);
 
-/// For each number of actors that was measured on one thread and on several: the serial share, and
-/// what follows from it for machines with more cores, one run on all of them or runs of four
-/// threads beside each other. Empty where there is none.
+/// For each number of actors that was measured on one thread and on several, how the times compare;
+/// and where there are three numbers of threads or more, beneath it what the law makes of machines
+/// with more cores ("-" where the share is not positive: then they tell nothing about it). Empty
+/// where nothing was measured on one thread and on several.
 std::string ScalingTable(const std::vector<GrowthRow>& rows);
 
 }  // namespace aisle

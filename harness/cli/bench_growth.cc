@@ -45,7 +45,7 @@ void AddBenchGrowth(CLI::App* bench, Action* action) {
       ->check(CLI::Range(1, 1000));
   command
       ->add_option("--threads", options->bench.threads,
-                   "Number of threads for all rows but the last; default: 2")
+                   "Number of threads, for all rows but those that compare fewer; default: 2")
       ->check(CLI::Range(1, 1024));
   AddIsa(command, &options->bench.isa);
   options->into.AddTo(command);
