@@ -21,15 +21,24 @@ std::vector<KeyframeId> KeyframesToAsk(const Map& map, const Frame& frame, Keyfr
   return asked;
 }
 
+std::optional<FramePose> LocateByLooks(const PlainContext& context, const TrackMemory& memory,
+                                       const Places& places, std::int64_t turn,
+                                       const std::function<bool(const FramePose&)>& is_possible) {
+  std::optional<FramePose> best;
+  for (const KeyframeId id :
+       KeyframesToAsk(context.map, context.frame, memory.reference, places, turn)) {
+    auto found = LocateByKeyframe(context, id);
+    if (!found || !is_possible(*found)) continue;
+    if (!best || found->pose.inliers > best->pose.inliers) best = std::move(found);
+  }
+  return best;
+}
+
 std::optional<FramePose> Relocalise(const PlainContext& context, const TrackMemory& memory,
                                     const Places& places, std::int64_t turn) {
   if (auto pose = FindAgain(context, memory)) return pose;
-  for (const KeyframeId id :
-       KeyframesToAsk(context.map, context.frame, memory.reference, places, turn)) {
-    const auto pose = LocateByKeyframe(context, id);
-    if (pose && CanBeThere(context, memory, *pose)) return pose;
-  }
-  return std::nullopt;
+  return LocateByLooks(context, memory, places, turn,
+                       [&](const FramePose& found) { return CanBeThere(context, memory, found); });
 }
 
 }  // namespace aisle::slam

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "slam/map/map.h"
@@ -19,6 +20,12 @@ struct Places {
 /// others at every `turn`.
 std::vector<KeyframeId> KeyframesToAsk(const Map& map, const Frame& frame, KeyframeId reference,
                                        const Places& places, std::int64_t turn);
+
+/// Where the keyframes to ask see the frame: of the poses that are possible, the one with most
+/// inliers. In rows of equal racks the first that is asked may be another place that looks alike.
+std::optional<FramePose> LocateByLooks(const PlainContext& context, const TrackMemory& memory,
+                                       const Places& places, std::int64_t turn,
+                                       const std::function<bool(const FramePose&)>& is_possible);
 
 /// Finds a lost frame: where the rig must be by now, else by asking a few keyframes for their view
 /// of it, as far as it can be there.

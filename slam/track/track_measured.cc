@@ -84,13 +84,9 @@ std::optional<FramePose> FindAround(const PlainContext& context, const TrackMemo
 std::optional<FramePose> FindByLooks(const PlainContext& context, const TrackMemory& memory,
                                      const Reckoned& reckoned, const Places& places,
                                      std::int64_t turn) {
-  for (const KeyframeId id :
-       KeyframesToAsk(context.map, context.frame, memory.reference, places, turn)) {
-    auto found = LocateByKeyframe(context, id);
-    if (found && AgreesWithReckoned(*found, reckoned, context.options.measured.most_chi2))
-      return found;
-  }
-  return std::nullopt;
+  return LocateByLooks(context, memory, places, turn, [&](const FramePose& found) {
+    return AgreesWithReckoned(found, reckoned, context.options.measured.most_chi2);
+  });
 }
 
 }  // namespace
