@@ -28,7 +28,7 @@ class Findings {
   std::vector<std::string> sentences_;
 };
 
-constexpr double kRigid = 1e-6;
+constexpr double kRigidToConform = 1e-6;
 
 bool IsBinary(const cv::Mat1b& mask) {
   if (mask.empty()) return true;  // its iterators divide by its width
@@ -54,7 +54,7 @@ void HoldEstimate(const FrameEstimate& said, const StereoFrame& frame, Findings*
   const bool tracks = said.state == TrackingState::kTracking;
   findings->Hold(said.T_world_rig.has_value() == tracks, id,
                  "T_world_rig must be present exactly where the state is kTracking");
-  findings->Hold(!said.T_world_rig || IsRigid(*said.T_world_rig, kRigid), id,
+  findings->Hold(!said.T_world_rig || IsRigid(*said.T_world_rig, kRigidToConform), id,
                  "T_world_rig is not a finite rigid motion");
   const cv::Mat1b& mask = said.regions.mask;
   findings->Hold(mask.empty() || mask.size() == frame.left.size(), id,
@@ -109,7 +109,8 @@ void HoldFinal(const Trajectory& final, const std::vector<StereoFrame>& frames,
   for (const StampedPose& pose : final) {
     findings->HoldAtEnd(pose.stamp_ns > last, "timestamps must increase");
     findings->HoldAtEnd(stamps.contains(pose.stamp_ns), "a timestamp does not belong to any frame");
-    findings->HoldAtEnd(IsRigid(pose.T_world_rig, kRigid), "a pose is not a finite rigid motion");
+    findings->HoldAtEnd(IsRigid(pose.T_world_rig, kRigidToConform),
+                        "a pose is not a finite rigid motion");
     last = pose.stamp_ns;
   }
 }

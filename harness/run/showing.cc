@@ -14,14 +14,14 @@
 namespace aisle {
 namespace {
 
-constexpr double kRigid = 1e-3;
+constexpr double kRigidToScore = 1e-3;
 
 /// Everything a system says is checked before it is used.
 std::string Fault(const FrameEstimate& estimate, const StereoFrame& frame) {
   if (estimate.id != frame.id || estimate.stamp_ns != frame.stamp_ns) {
     return fmt::format("frame {}: the answer belongs to frame {}", frame.id, estimate.id);
   }
-  if (estimate.T_world_rig && !IsRigid(*estimate.T_world_rig, kRigid)) {
+  if (estimate.T_world_rig && !IsRigid(*estimate.T_world_rig, kRigidToScore)) {
     return fmt::format("frame {}: the pose is not a rigid motion within {:g} m", frame.id,
                        kFarthest_m);
   }
@@ -101,7 +101,7 @@ std::size_t CountForeign(const Trajectory& track, const std::vector<FrameEstimat
 /// `shown`: what it said of every frame, stamps rising.
 std::string FaultOfTrack(const Trajectory& track, const std::vector<FrameEstimate>& shown) {
   for (std::size_t i = 0; i < track.size(); ++i) {
-    if (!IsRigid(track[i].T_world_rig, kRigid)) {
+    if (!IsRigid(track[i].T_world_rig, kRigidToScore)) {
       return fmt::format("final track, pose {}: not a rigid motion within {:g} m", i, kFarthest_m);
     }
     if (i > 0 && track[i].stamp_ns <= track[i - 1].stamp_ns) {

@@ -8,7 +8,6 @@ namespace aisle::sim {
 namespace {
 
 constexpr int kDeepest = 500;
-constexpr std::size_t kMaxNodes = 100'000;
 constexpr float kUnit = 1e-4f;  ///< that a unit quaternion's length may be off by
 
 /// Parent of every node, -1 for roots.
@@ -127,7 +126,8 @@ GltfPose StatedPose(const GltfValue& node) {
 
 GltfNodes AddGltfNodes(const GltfDocument& document, Model* model) {
   const std::vector<GltfValue> nodes = document.root().Items("nodes");
-  if (nodes.size() > kMaxNodes) throw ImportError(fmt::format("it has over {} nodes", kMaxNodes));
+  if (nodes.size() > kMostModelNodes)
+    throw ImportError(fmt::format("it has over {} nodes", kMostModelNodes));
   const std::vector<int> parents = ParentsOf(nodes);
   CheckTree(nodes, parents);
   GltfNodes known{std::vector<int>(nodes.size(), -1), {}};

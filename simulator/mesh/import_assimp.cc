@@ -20,8 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMaxNodes = 100'000;
-
 void Require(bool condition, const std::string& otherwise) {
   if (!condition) throw ImportError(otherwise);
 }
@@ -96,7 +94,7 @@ class SceneReader {
     while (!open.empty()) {
       const auto [source, parent] = open.back();
       open.pop_back();
-      Require(model_->nodes.size() < kMaxNodes, "it has too many nodes");
+      Require(model_->nodes.size() < kMostModelNodes, "it has too many nodes");
       const int index = static_cast<int>(model_->nodes.size());
       nodes_of_[source->mName.C_Str()].push_back(index);
       model_->nodes.push_back({source->mName.C_Str(), parent, PoseOf(*source)});

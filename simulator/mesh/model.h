@@ -23,6 +23,7 @@ struct ModelNode {
   int parent = -1;  ///< index of the parent, always smaller than its own; -1: the root
   NodePose rest;    ///< in the parent
 };
+inline constexpr std::size_t kMostModelNodes = 100'000;  ///< of a model
 
 /// One of the frames a vertex may follow: a node, and where the vertex's bind position lies in it.
 struct ModelJoint {

@@ -47,9 +47,9 @@ std::string FootprintError(const std::vector<Eigen::Vector2d>& corners) {
   return "";
 }
 
-class Checker {
+class SceneChecker {
  public:
-  Checker(const Scene& scene, Issues* issues) : scene_(scene), issues_(issues) {}
+  SceneChecker(const Scene& scene, Issues* issues) : scene_(scene), issues_(issues) {}
 
   void Run() {
     if (!CheckHall()) return;  // all else is measured against it
@@ -381,6 +381,6 @@ class Checker {
 
 }  // namespace
 
-void CheckScene(const Scene& scene, Issues* issues) { Checker(scene, issues).Run(); }
+void CheckScene(const Scene& scene, Issues* issues) { SceneChecker(scene, issues).Run(); }
 
 }  // namespace aisle::sim

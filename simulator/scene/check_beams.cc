@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <numbers>
 #include <set>
 
 #include "simulator/scene/check_given.h"
+#include "simulator/scene/degree.h"
 #include "simulator/scene/hall.h"
 
 namespace aisle::sim {
@@ -14,9 +14,9 @@ namespace {
 /// As of a sun's moves: lower, hardly a ray comes through a window.
 constexpr double kLowestSun_deg = 1;
 
-class Checker {
+class BeamChecker {
  public:
-  Checker(const Scene& scene, const BeamSpec& one, std::string key, Issues* issues)
+  BeamChecker(const Scene& scene, const BeamSpec& one, std::string key, Issues* issues)
       : hall_(scene.hall), one_(one), key_(std::move(key)), issues_(issues) {}
 
   void Run() {
@@ -58,7 +58,6 @@ class Checker {
     CheckGiven(one_.given,
                {"a sun", {"size_m", "facing_deg", "in_roof", "columns", "rows", "bar_m", "moves"}},
                key_, issues_);
-    constexpr double kDegree = std::numbers::pi / 180;
     if (one_.elevation_rad < (kLowestSun_deg - 1e-9) * kDegree) {
       Say(".elevation_deg",
           fmt::format(
@@ -85,7 +84,7 @@ void CheckBeams(const Scene& scene, Issues* issues) {
   for (std::size_t i = 0; i < scene.beams.size(); ++i) {
     const BeamSpec& beam = scene.beams[i];
     const std::string key = fmt::format("beams[{}]", i);
-    Checker(scene, beam, key, issues).Run();
+    BeamChecker(scene, beam, key, issues).Run();
     if (!beam.name.empty() && !names.insert(beam.name).second) {
       issues->Add(
           beam.mark, key + ".name",

@@ -11,9 +11,9 @@
 namespace aisle::sim {
 namespace {
 
-class Checker {
+class MechanismChecker {
  public:
-  Checker(const Scene& scene, const MechanismSpec& one, std::string key, Issues* issues)
+  MechanismChecker(const Scene& scene, const MechanismSpec& one, std::string key, Issues* issues)
       : scene_(scene), one_(one), key_(std::move(key)), issues_(issues) {}
 
   void Run() {
@@ -171,7 +171,7 @@ class Checker {
 
 void CheckMechanisms(const Scene& scene, Issues* issues) {
   for (std::size_t i = 0; i < scene.mechanisms.size(); ++i) {
-    Checker(scene, scene.mechanisms[i], fmt::format("mechanisms[{}]", i), issues).Run();
+    MechanismChecker(scene, scene.mechanisms[i], fmt::format("mechanisms[{}]", i), issues).Run();
   }
 }
 

@@ -4,17 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "simulator/motion/crowd.h"
+#include "simulator/scene/degree.h"
 #include "simulator/scene/footprint.h"
 #include "simulator/scene/obstacles.h"
 #include "simulator/scene/rig_path.h"
 
 namespace aisle::sim {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// Places of one disc of a mover, `ahead_m` of where `at` has it.
 CrowdIntruder DiscOf(const std::function<RouteState(double)>& at, double ahead_m, double radius_m,

@@ -1,13 +1,11 @@
 #include <limits>
-#include <numbers>
 
+#include "simulator/scene/degree.h"
 #include "simulator/scene/extend.h"
 #include "simulator/scene/fields.h"
 
 namespace aisle::sim {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 // What bodies and vehicles of each kind can do unless the file says less.
 constexpr RouteLimits kAgvLimits = {.acceleration_mps2 = 0.5,

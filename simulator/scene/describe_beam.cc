@@ -1,11 +1,7 @@
-#include <numbers>
-
 #include "simulator/scene/fields.h"
 
 namespace aisle::sim {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 void DescribeSunMove(Fields& f, SunMove& move) {
   f.Number({"at_s", "time at which the change begins", "3", true}, &move.at_s, {-3600, 3600});

@@ -1,12 +1,11 @@
 #include <limits>
 #include <numbers>
 
+#include "simulator/scene/degree.h"
 #include "simulator/scene/fields.h"
 
 namespace aisle::sim {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 void Vector(Fields& f, const Key& key, Eigen::Vector3d* value, Range range = {-100, 100}) {
   f.Numbers(key, value->data(), 3, range);

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kMaxFileBytes = 1 << 20;
-constexpr const char* kExample = "; example: extend: paper/scene2";
+constexpr const char* kExtendExample = "; example: extend: paper/scene2";
 
 /// The file that the entry of a scene names, or nothing with the reason in `issues`.
 std::optional<fs::path> BaseOf(const YamlEntry& entry, Issues* issues) {
@@ -28,7 +28,7 @@ std::optional<fs::path> BaseOf(const YamlEntry& entry, Issues* issues) {
     issues->Add(value.mark, kExtendKey,
                 std::string("expected a scene file, as a path from this file's folder or by its "
                             "name among the scenes that come with the program") +
-                    kExample);
+                    kExtendExample);
     return std::nullopt;
   }
   const std::vector<std::string>& files = issues->files();
@@ -56,7 +56,7 @@ std::optional<std::vector<YamlValue>> ReadLayers(const std::string& text, Issues
     std::string problem;
     const auto base_text = ReadSceneText(*base, &problem);
     if (!base_text) {
-      issues->Add(entry->value.mark, kExtendKey, problem + kExample);
+      issues->Add(entry->value.mark, kExtendKey, problem + kExtendExample);
       return std::nullopt;
     }
     issues->AddFile(base->string());

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 constexpr std::array<const char*, 11> kHallKeys = {kHallKey,   "racks",  "stacks",     "columns",
                                                    "markings", "props",  "mezzanines", "doors",
                                                    "fixtures", "lights", kViewsKey};
-constexpr const char* kExample = "; example: use: halls/cold_store.yaml";
+constexpr const char* kHallExample = "; example: use: halls/cold_store.yaml";
 
 /// The value at a path of two keys, or null.
 const YamlValue* Inner(const YamlValue& tree, const char* key, const char* inner) {
@@ -80,7 +80,7 @@ std::vector<NamedHall> HallsOf(const YamlValue& tree, Issues* issues) {
   if (use) {
     if (is_name(*use)) return {{use->text, kUseKey, use->mark}};
     issues->Add(use->mark, "hall.use",
-                std::string("expected the path of a hall's file") + kExample);
+                std::string("expected the path of a hall's file") + kHallExample);
     return {};
   }
   std::vector<NamedHall> halls;
@@ -101,7 +101,7 @@ std::optional<YamlValue> ReadHall(const NamedHall& hall, Issues* issues) {
   std::string problem;
   const auto text = ReadSceneText(file, &problem);
   if (!text) {
-    issues->Add(hall.mark, PathOf(hall), problem + kExample);
+    issues->Add(hall.mark, PathOf(hall), problem + kHallExample);
     return std::nullopt;
   }
   issues->AddFile(file.string());

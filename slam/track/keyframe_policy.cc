@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "slam/common/median.h"
+#include "slam/track/close_points.h"
 
 namespace aisle::slam {
 namespace {
@@ -16,24 +17,6 @@ int ProvenLandmarks(const Map& map, const Keyframe& keyframe) {
         const Landmark* landmark = map.Find(id);
         return landmark && landmark->observations.size() >= asked;
       }));
-}
-
-struct ClosePoints {
-  int tracked = 0, untracked = 0;
-};
-
-ClosePoints CountClose(const Frame& frame, const FramePose& pose, double least_disparity) {
-  std::vector<bool> tracked(static_cast<std::size_t>(frame.size()), false);
-  for (std::size_t i = 0; i < pose.matches.size(); ++i) {
-    if (pose.pose.inlier[i]) tracked[static_cast<std::size_t>(pose.matches[i].feature)] = true;
-  }
-  ClosePoints close;
-  for (std::size_t i = 0; i < tracked.size(); ++i) {
-    const Measurement& measurement = frame.measurements[i];
-    if (!measurement.has_depth() || measurement.uvd.z() < least_disparity) continue;
-    tracked[i] ? ++close.tracked : ++close.untracked;
-  }
-  return close;
 }
 
 double MedianDepth(const Frame& frame, const StereoCamera& camera) {
@@ -63,8 +46,7 @@ bool NeedsKeyframe(const Map& map, const Frame& frame, const FramePose& pose,
       (pose.pose.T_rig_world * reference.T_world_rig).inverse();
   if (!HasMoved(T_reference_rig, MedianDepth(frame, camera), options)) return false;
 
-  // Close means a disparity of at least f b / (n b).
-  const ClosePoints close = CountClose(frame, pose, camera.fx / options.close_baselines);
+  const ClosePoints close = CountClosePoints(frame, pose, camera, options.close_baselines);
   const bool lacks_close =
       close.tracked < options.few_close && close.untracked > options.many_new_close;
   const double share =

@@ -19,13 +19,6 @@ struct OrbSlam2Verdict {
   bool taken = false;   ///< nothing hinders it
 };
 
-/// Stereo points nearer than `close_baselines`, by whether the pose has used them.
-struct ClosePoints {
-  int tracked = 0, untracked = 0;
-};
-ClosePoints CountClosePoints(const Frame& frame, const FramePose& pose, const StereoCamera& camera,
-                             double close_baselines);
-
 /// Whether a tracked frame becomes a keyframe: it sees clearly less of the map than its reference
 /// keyframe or needs close points, and the mapper is idle, or it is urgent, or a second has passed.
 /// Whether the rig has moved is not asked.

@@ -1,12 +1,11 @@
 #include "harness/report/chart/charts.h"
 
+#include "harness/report/chart/map_frame.h"
 #include "harness/report/chart/svg.h"
 
 namespace aisle {
 namespace {
 
-// In units of the map: it grows and shrinks with the page, its letters by steps of the style sheet.
-constexpr double kWidth = 860, kLeft = 84, kRight = 846;
 using Points = std::vector<std::pair<double, double>>;
 
 /// The two world axes along which the truth extends most, in the order x, y, z.
@@ -103,14 +102,14 @@ std::string TopViewChart(const std::vector<ChartSeries>& series, TrackKind kind)
   const bool swap = box.sizes().y() > box.sizes().x();
   const int across = swap ? 1 : 0, up = swap ? 0 : 1;
 
-  const double scale = (kRight - kLeft) / box.sizes()[across];
+  const double scale = (kMapRight - kMapLeft) / box.sizes()[across];
   const double plot_height = std::max(60.0, scale * box.sizes()[up]);
-  const Axis x{box.min()[across], box.max()[across], kLeft, kRight};
+  const Axis x{box.min()[across], box.max()[across], kMapLeft, kMapRight};
   // Seen from above, y grows to the left of x: with y across, x grows downwards.
   const bool down = swap && ax == 0 && ay == 1;
   const double low_px = down ? 34 : 34 + plot_height, high_px = down ? 34 + plot_height : 34;
   const Axis y{box.min()[up], box.max()[up], low_px, high_px};
-  Svg svg = Svg::Map(kWidth, plot_height + 100, "trajectories from above");
+  Svg svg = Svg::Map(kMapWidth, plot_height + 100, "trajectories from above");
   const char* names = "xyz";
   const auto axis_name = [&](int k) { return names[(k == 0) ? ax : ay]; };
   svg.Grid(x, y, fmt::format("{} [m]", axis_name(across)), fmt::format("{} [m]", axis_name(up)));
@@ -149,7 +148,7 @@ std::string TopViewChart(const std::vector<ChartSeries>& series, TrackKind kind)
   const std::string note = magnification == 1
                                ? "deviations to scale"
                                : fmt::format("deviations from truth drawn ×{:g}", magnification);
-  svg.Text(kLeft, plot_height + 88, note, "axis");
+  svg.Text(kMapLeft, plot_height + 88, note, "axis");
   return svg.Finish() + Legend(legend);
 }
 

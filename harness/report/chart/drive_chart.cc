@@ -3,13 +3,12 @@
 #include <algorithm>
 
 #include "harness/common/seconds.h"
+#include "harness/report/chart/map_frame.h"
 #include "harness/report/chart/svg.h"
 
 namespace aisle {
 namespace {
 
-// In units of the map, as in charts.cc.
-constexpr double kWidth = 860, kLeft = 84, kRight = 846;
 using Points = std::vector<std::pair<double, double>>;
 
 double Seconds(const DriveSample& sample) { return ToSeconds(sample.stamp_ns); }
@@ -30,16 +29,16 @@ class FloorMap {
     box_.max().array() += kMargin_m;
     swap_ = box_.sizes().y() > box_.sizes().x();
     const int across = swap_ ? 1 : 0, up = swap_ ? 0 : 1;
-    const double scale = (kRight - kLeft) / box_.sizes()[across];
+    const double scale = (kMapRight - kMapLeft) / box_.sizes()[across];
     height_ = scale * box_.sizes()[up];
-    x_ = {box_.min()[across], box_.max()[across], kLeft, kRight};
+    x_ = {box_.min()[across], box_.max()[across], kMapLeft, kMapRight};
     // Seen from above, y grows to the left of x: with y across, x grows downwards.
     y_ = swap_ ? Axis{box_.min()[up], box_.max()[up], 20, 20 + height_}
                : Axis{box_.min()[up], box_.max()[up], 20 + height_, 20};
   }
 
   Svg Open() const {
-    Svg svg = Svg::Map(kWidth, height_ + 80, "the drives from above");
+    Svg svg = Svg::Map(kMapWidth, height_ + 80, "the drives from above");
     svg.Grid(x_, y_, swap_ ? "y [m]" : "x [m]", swap_ ? "x [m]" : "y [m]");
     return svg;
   }

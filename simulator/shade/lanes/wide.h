@@ -83,6 +83,7 @@ struct Triple {
   T x, y, z;
 };
 using F8x3 = Triple<F8>;
+inline F8x3 Wide3(const Eigen::Vector3f& v) { return {Wide(v.x()), Wide(v.y()), Wide(v.z())}; }
 template <typename T>
 T Dot(const Triple<T>& a, const Triple<T>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;

@@ -12,8 +12,6 @@ namespace {
 constexpr float kLift = 2e-3f;  // m off the surface, so that a ray does not meet it
 constexpr float kSoftest = 1e-4f;
 
-F8x3 Wide3(const Eigen::Vector3f& v) { return {Wide(v.x()), Wide(v.y()), Wide(v.z())}; }
-
 F8 Clamp01(F8 x) { return Min(Max(x, Wide(0)), Wide(1)); }
 
 F8 SmoothStep(F8 x) {

@@ -15,7 +15,6 @@ constexpr float kUntracedShare = 0.02f;
 // fourth row of the pattern only.
 constexpr float kHalfShare = 0.2f, kQuarterShare = 0.08f;
 
-F8x3 Wide3(const Eigen::Vector3f& v) { return {Wide(v.x()), Wide(v.y()), Wide(v.z())}; }
 F8x3 Plus(const F8x3& a, const F8x3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 void SetLane(const Eigen::Vector3f& v, std::size_t k, F8x3* to) {
   to->x[k] = v.x();

@@ -12,8 +12,6 @@ namespace {
 constexpr float kMoverReflection = 0.3f;  // what blocking parts of a mover send on in turn
 const F8 kAlmostThere = Wide(0.998f);     // of the way to a light
 
-F8x3 Wide3(const Eigen::Vector3f& v) { return {Wide(v.x()), Wide(v.y()), Wide(v.z())}; }
-
 /// From eight points to places on a light, and the irradiance that it gives if nothing stands
 /// between.
 struct WaysToLight {

@@ -17,7 +17,7 @@ constexpr float kMostRoll = 0.25F;   // tangent of its slope across the image: n
 constexpr double kMostPitch = 1;     // tangent of the camera's
 constexpr double kLeastShare = 0.1;  // of the points of the lower half
 constexpr float kLeastDepth = 1.5F;  // farthest to nearest of nine tenths of what is seen of it
-constexpr int kHypotheses = 80;      // planes through three points
+constexpr int kPlanes = 80;          // through three points, that are tried
 constexpr std::uint64_t kSeed = 5;
 
 std::vector<Eigen::Vector3f> PointsOfLowerHalf(const cv::Mat1f& disparity) {
@@ -90,7 +90,7 @@ std::optional<FloorPlane> FindFloor(const cv::Mat1f& disparity, const StereoCame
   if (points.size() < kLeastPoints) return std::nullopt;
   std::optional<FloorPlane> best;
   double most = kLeastShare * static_cast<double>(points.size());
-  for (int k = 0; k < kHypotheses; ++k) {
+  for (int k = 0; k < kPlanes; ++k) {
     CounterRandom random(kSeed, static_cast<std::uint64_t>(k));
     std::array<Eigen::Vector3f, 3> sample;
     for (Eigen::Vector3f& point : sample) {

@@ -7,7 +7,7 @@
 namespace aisle::slam::dynamic {
 namespace {
 
-constexpr int kReach = 3, kWindow = 2 * kReach + 1;
+constexpr int kHalfWindow = 3, kWindow = 2 * kHalfWindow + 1;
 constexpr float kUnknown = 1e6F;  // larger than any squared difference
 
 /// Squared differences between the window around a pixel and those of the right image at each
@@ -17,12 +17,12 @@ class StereoDifferences {
  public:
   /// For disparities of [0, count), of which windows within the right image are fewer.
   StereoDifferences(const DenseFrame& frame, cv::Point at, int count)
-      : count_(std::min(count, at.x - kReach + 1)) {
+      : count_(std::min(count, at.x - kHalfWindow + 1)) {
     if (count_ <= 0) return;
-    const int first = at.x - count_ + 1 - kReach;  // column of the farthest window's left edge
+    const int first = at.x - count_ + 1 - kHalfWindow;  // column of the farthest window's left edge
     std::fill(sums_.begin(), sums_.begin() + count_, std::uint16_t{0});
-    for (int v = -kReach; v <= kReach; ++v) {
-      const unsigned char* seen = frame.image[at.y + v] + at.x - kReach;
+    for (int v = -kHalfWindow; v <= kHalfWindow; ++v) {
+      const unsigned char* seen = frame.image[at.y + v] + at.x - kHalfWindow;
       for (int u = 0; u < kWindow; ++u) {
         Add(seen[u], frame.right_low[at.y + v] + first + u, frame.right_high[at.y + v] + first + u);
       }
@@ -66,17 +66,17 @@ int DifferenceInTime(const cv::Mat1b& now, const cv::Mat1b& then, cv::Point at,
                      const cv::Vec2f& place, int most) {
   constexpr int kParts = 16, kMostDifference = 36;
   const int left = cvFloor(place[0]), top = cvFloor(place[1]);
-  if (left < kReach || top < kReach || left + kReach + 1 >= then.cols ||
-      top + kReach + 1 >= then.rows) {
+  if (left < kHalfWindow || top < kHalfWindow || left + kHalfWindow + 1 >= then.cols ||
+      top + kHalfWindow + 1 >= then.rows) {
     return std::numeric_limits<int>::max();
   }
   const int fu = static_cast<int>((place[0] - static_cast<float>(left)) * kParts),
             fv = static_cast<int>((place[1] - static_cast<float>(top)) * kParts);
   int squares = 0;
-  for (int v = -kReach; v <= kReach && squares < most; ++v) {
-    const unsigned char *upper = then[top + v] + left - kReach,
-                        *lower = then[top + v + 1] + left - kReach,
-                        *seen = now[at.y + v] + at.x - kReach;
+  for (int v = -kHalfWindow; v <= kHalfWindow && squares < most; ++v) {
+    const unsigned char *upper = then[top + v] + left - kHalfWindow,
+                        *lower = then[top + v + 1] + left - kHalfWindow,
+                        *seen = now[at.y + v] + at.x - kHalfWindow;
     for (int u = 0; u < kWindow; ++u) {
       const int above = (kParts - fu) * upper[u] + fu * upper[u + 1],
                 below = (kParts - fu) * lower[u] + fu * lower[u + 1];
@@ -128,8 +128,8 @@ float LimitByAlias(const AliasViews& views, const SeenMotion& seen, float log_od
       static_cast<float>(views.disparities) * std::sqrt(seen.per_disparity.dot(seen.per_disparity));
   if (reach < kLeastWay) return log_odds;
   // The window lies within the image.
-  const cv::Point at(std::clamp(seen.at.x, kReach, now.cols - kReach - 1),
-                     std::clamp(seen.at.y, kReach, now.rows - kReach - 1));
+  const cv::Point at(std::clamp(seen.at.x, kHalfWindow, now.cols - kHalfWindow - 1),
+                     std::clamp(seen.at.y, kHalfWindow, now.rows - kHalfWindow - 1));
   const cv::Vec2f shift(static_cast<float>(at.x - seen.at.x), static_cast<float>(at.y - seen.at.y));
   const StereoDifferences stereo(views.now, at, views.disparities);
   const int own = cvRound(seen.disparity);
