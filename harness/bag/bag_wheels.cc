@@ -161,9 +161,10 @@ bool AllSayCovariances(const std::map<std::int64_t, Reading>& readings, const st
     if (const std::string fault = CovarianceFault(covariance); !fault.empty()) {
       throw InputError(
           file, 0,
-          fmt::format("twist.covariance of the message of {} at {} s: {}; record it again with "
-                      "covariances that are right, or with zeros, which stand for unknown ones",
-                      topic, FormatSeconds(at->first), fault));
+          fmt::format(
+              "twist.covariance of the message of {} at {} s: {}; leave these wheels out, or "
+              "rewrite the bag with zeros there, which stand for an unknown covariance",
+              topic, FormatSeconds(at->first), fault));
     }
     all = all && SaysCovariance(covariance);
   }
