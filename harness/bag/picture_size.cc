@@ -3,16 +3,12 @@
 #include <algorithm>
 #include <array>
 
+#include "harness/io/big_endian.h"
+
 namespace aisle {
 namespace {
 
 using Bytes = std::span<const std::uint8_t>;
-
-std::uint32_t BigEndian(Bytes bytes) {
-  std::uint32_t value = 0;
-  for (const std::uint8_t byte : bytes) value = value << 8 | byte;
-  return value;
-}
 
 bool BeginsWith(Bytes bytes, Bytes beginning) {
   return bytes.size() >= beginning.size() &&

@@ -2,6 +2,7 @@
 
 #include <string_view>
 
+#include "harness/io/big_endian.h"
 #include "harness/io/crc32.h"
 
 namespace aisle {
@@ -12,13 +13,7 @@ constexpr std::size_t kDepthAt = 24, kColourTypeAt = 25;  // in IHDR, which come
 constexpr std::size_t kHeaderBytes = 33;
 constexpr char kIndexed = 3;
 
-std::uint32_t BigEndian(std::string_view bytes) {
-  std::uint32_t value = 0;
-  for (const char byte : bytes.substr(0, 4)) value = value << 8 | static_cast<unsigned char>(byte);
-  return value;
-}
-
-std::string BigEndian(std::uint32_t value) {
+std::string InBigEndian(std::uint32_t value) {
   std::string bytes;
   for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 0xff);
   return bytes;
@@ -27,7 +22,7 @@ std::string BigEndian(std::uint32_t value) {
 std::string PaletteOfGreys(std::size_t entries) {
   std::string chunk = "PLTE";
   for (std::size_t i = 0; i < entries; ++i) chunk.append(3, static_cast<char>(i));
-  return BigEndian(static_cast<std::uint32_t>(3 * entries)) + chunk + BigEndian(Crc32(chunk));
+  return InBigEndian(static_cast<std::uint32_t>(3 * entries)) + chunk + InBigEndian(Crc32(chunk));
 }
 
 }  // namespace
@@ -39,7 +34,7 @@ std::optional<std::string> WithIndicesForColours(const std::string& png, std::si
   const std::size_t values = std::size_t{1} << bits;
   const std::string_view bytes = png;
   for (std::size_t at = kSignatureBytes; at + kChunkHeadBytes <= bytes.size();) {
-    const std::size_t length = BigEndian(bytes.substr(at));
+    const std::size_t length = BigEndian(bytes.substr(at, 4));
     const std::size_t whole = kChunkHeadBytes + length + kCrcBytes;
     if (whole > bytes.size() - at) return std::nullopt;
     if (bytes.substr(at + 4, 4) != "PLTE") {

@@ -4,6 +4,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "simulator/common/byte_order_mark.h"
 #include "simulator/common/input_file.h"
 
 namespace aisle::sim {
@@ -15,10 +16,7 @@ std::string CalibrationText(const std::string& file) {
   }
   std::ostringstream bytes;
   bytes << std::ifstream(file, std::ios::binary).rdbuf();
-  std::string text = bytes.str();
-  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-  if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
-  return text;
+  return std::string(WithoutByteOrderMark(bytes.view()));
 }
 
 }  // namespace aisle::sim

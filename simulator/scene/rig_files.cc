@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "simulator/calibration/stereo_model.h"
+#include "simulator/common/byte_order_mark.h"
 #include "simulator/common/decimal.h"
 #include "simulator/common/input_file.h"
 #include "simulator/common/printable.h"
@@ -129,8 +130,7 @@ std::string ReadPoses(const std::string& file, std::vector<TimedPose>* poses) {
   if (!stream) return file + ": cannot be read";
   std::string line;
   for (int number = 1; std::getline(stream, line); ++number) {
-    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // Windows' editors begin with it
-    if (number == 1 && line.starts_with(kByteOrderMark)) line.erase(0, kByteOrderMark.size());
+    if (number == 1) line = std::string(WithoutByteOrderMark(line));
     const std::size_t first = line.find_first_not_of(" \t\r");
     if (first == std::string::npos || line[first] == '#') continue;
     const std::string wrong = TakePose(line, poses);
