@@ -23,8 +23,11 @@ constexpr std::uint64_t kMiB = std::uint64_t{1} << 20;
 constexpr std::uint64_t kMostChunk = 256 * kMiB;
 constexpr std::uint64_t kMostKept = 256 * kMiB;  ///< of unpacked chunks, for the next reading
 constexpr std::size_t kMostKeptChunks = 4;       ///< topics that are read side by side
-constexpr std::size_t kMessageHead = 22;         ///< channel, sequence, two stamps
-constexpr std::size_t kStampBytes = 12;          ///< encapsulation, seconds, nanoseconds
+/// Beyond these, 48 MiB of entries, a file has at most a message for each of its bytes: of what is
+/// packed, a few bytes could claim to be any number. Stamps that differ take more than that.
+constexpr std::uint64_t kFewMessages = std::uint64_t{1} << 20;
+constexpr std::size_t kMessageHead = 22;  ///< channel, sequence, two stamps
+constexpr std::size_t kStampBytes = 12;   ///< encapsulation, seconds, nanoseconds
 /// Place of entries that stand in no chunk, or in one that is not compressed: their offset is the
 /// file's. Else the place is the chunk's number.
 constexpr std::uint64_t kInFile = ~std::uint64_t{0};
@@ -185,6 +188,12 @@ class McapFile : public Bag {
     fields.Get<std::uint64_t>();  // published
     const auto channel = by_id_.find(id);
     if (channel == by_id_.end()) return;
+    if (entries_.size() >= std::max(kFewMessages, file_.size())) {
+      throw InputError(path_, 0,
+                       fmt::format("has more than {} messages in {} bytes, which no recording with "
+                                   "increasing stamps has; record it again",
+                                   entries_.size(), file_.size()));
+    }
     ++channel->second.channel.messages;
     entries_.push_back({.channel = channel->second.place,
                         .log_ns = static_cast<std::int64_t>(log_ns),

@@ -1,27 +1,11 @@
 #include "harness/bag/picture_size.h"
 
-#include <algorithm>
-#include <array>
-
 #include "harness/io/big_endian.h"
 
 namespace aisle {
 namespace {
 
 using Bytes = std::span<const std::uint8_t>;
-
-bool BeginsWith(Bytes bytes, Bytes beginning) {
-  return bytes.size() >= beginning.size() &&
-         std::equal(beginning.begin(), beginning.end(), bytes.begin());
-}
-
-/// The signature, and the chunk IHDR, which must be the first.
-PictureSize SizeOfPng(Bytes bytes) {
-  constexpr std::array<std::uint8_t, 16> kBeginning = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n',
-                                                       0,    0,   0,   13,  'I',  'H',  'D',  'R'};
-  if (bytes.size() < 24 || !BeginsWith(bytes, kBeginning)) return {};
-  return {BigEndian(bytes.subspan(16, 4)), BigEndian(bytes.subspan(20, 4))};
-}
 
 /// ITU T.81, B.1.1.3: markers that begin a frame; the others of C0 to CF define tables.
 bool IsFrame(std::uint8_t marker) {
@@ -35,8 +19,7 @@ bool StandsAlone(std::uint8_t marker) {
 
 /// Segment after segment, up to the frame's: a thumbnail's frame lies within a segment.
 PictureSize SizeOfJpeg(Bytes bytes) {
-  constexpr std::array<std::uint8_t, 2> kStart = {0xFF, 0xD8};
-  if (!BeginsWith(bytes, kStart)) return {};
+  if (bytes.size() < 2 || bytes[0] != 0xFF || bytes[1] != 0xD8) return {};
   for (std::size_t at = 2; at + 9 <= bytes.size() && bytes[at] == 0xFF;) {
     const std::uint8_t marker = bytes[at + 1];
     if (IsFrame(marker)) {
@@ -54,8 +37,8 @@ PictureSize SizeOfJpeg(Bytes bytes) {
 }  // namespace
 
 PictureSize SizeOfPicture(std::span<const std::uint8_t> bytes) {
-  const PictureSize png = SizeOfPng(bytes);
-  return png.width > 0 ? png : SizeOfJpeg(bytes);
+  const auto png = SizeOfPng({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  return png ? *png : SizeOfJpeg(bytes);
 }
 
 }  // namespace aisle

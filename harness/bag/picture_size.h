@@ -3,11 +3,9 @@
 #include <cstdint>
 #include <span>
 
-namespace aisle {
+#include "harness/io/png_size.h"
 
-struct PictureSize {
-  std::uint32_t width = 0, height = 0;
-};
+namespace aisle {
 
 /// Size in pixels as the header of a PNG or JPEG states it; nothing is decoded. 0 x 0 where the
 /// bytes are neither, or end before they say it.

@@ -11,6 +11,7 @@
 #include "harness/io/file.h"
 #include "harness/io/hash.h"
 #include "harness/io/input_error.h"
+#include "harness/io/json_text.h"
 #include "harness/io/places.h"
 #include "harness/io/system_spec_json.h"
 #include "harness/plugs/steering_options.h"
@@ -111,7 +112,7 @@ std::string ToJson(const Job& job) {
 
 Job JobFromJson(const std::string& text, const std::string& file) {
   try {
-    return FromJson(Json::parse(text));
+    return FromJson(ParseJson(text));
   } catch (const std::exception& error) {
     throw InputError(file, 0, "not a job file: " + Printable(error.what(), 200));
   }

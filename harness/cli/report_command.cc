@@ -40,9 +40,7 @@ int Rebuild(const Options& options) {
   }
   const ReportOptions about = WithHistory(results, folder);
   if (!about.history_trouble.empty()) {
-    fmt::print(stderr,
-               "aisle: warning: the trends do not include this run: {}; if the file is damaged, "
-               "move it away to start a new one\n",
+    fmt::print(stderr, "aisle: warning: the trends do not include this run: {}\n",
                about.history_trouble);
   }
   WriteReport(results, folder, about);

@@ -4,6 +4,7 @@
 
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
+#include "harness/io/json_text.h"
 #include "harness/record/record_json.h"
 
 namespace aisle {
@@ -15,7 +16,7 @@ using Json = nlohmann::ordered_json;
 template <class Value, class Read>
 std::optional<Value> ReadJson(const fs::path& path, Read read) {
   try {
-    return read(Json::parse(ReadFile(path)));
+    return read(ParseJson(ReadFile(path)));
   } catch (const std::exception&) {
     return std::nullopt;
   }

@@ -5,6 +5,7 @@
 
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
+#include "harness/io/json_text.h"
 #include "harness/record/record.h"
 #include "harness/record/record_json.h"
 #include "harness/suite/plan.h"
@@ -106,7 +107,7 @@ std::string ToJson(const TaskList& list) {
 TaskList TasksFromJson(const std::string& text, const std::string& file,
                        const std::vector<RunSpec>& specs) {
   try {
-    return FromJson(Json::parse(text), specs);
+    return FromJson(ParseJson(text), specs);
   } catch (const std::exception& error) {
     throw InputError(file, 0, "not a task list: " + Printable(error.what(), 200));
   }

@@ -4,25 +4,21 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "harness/io/big_endian.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
 #include "harness/io/png_palette.h"
+#include "harness/io/png_size.h"
 
 namespace aisle {
 namespace {
 
-constexpr std::size_t kHeaderBytes = 33;  // signature, IHDR chunk
 constexpr std::uint32_t kMaxSide = 16384;
 constexpr std::uint64_t kMostPixels = 1U << 26;  // a few bytes of zeros may claim to be any number
 
 void CheckPngHeader(const std::string& bytes, const std::string& file) {
-  if (bytes.size() < kHeaderBytes || bytes.compare(0, 8, "\x89PNG\r\n\x1a\n") != 0) {
-    throw InputError(file, 0, "not a PNG image");
-  }
-  const std::string_view header = bytes;
-  const std::uint32_t width = BigEndian(header.substr(16, 4)),
-                      height = BigEndian(header.substr(20, 4));
+  const std::optional<PictureSize> size = SizeOfPng(bytes);
+  if (!size) throw InputError(file, 0, "not a PNG image");
+  const auto [width, height] = *size;
   if (width == 0 || height == 0 || width > kMaxSide || height > kMaxSide) {
     throw InputError(file, 0,
                      fmt::format("has {}x{} pixels; at most {} in each direction are allowed",

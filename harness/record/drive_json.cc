@@ -5,6 +5,7 @@
 #include "harness/contract/drive_names.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
+#include "harness/io/json_text.h"
 #include "harness/record/record_json.h"
 
 namespace aisle {
@@ -222,7 +223,7 @@ std::string ToJson(const DriveLog& log) {
 
 DriveLog DriveLogFromJson(const std::string& text, const std::string& file) {
   try {
-    return FromJson(Json::parse(text));
+    return FromJson(ParseJson(text));
   } catch (const std::exception& error) {
     throw InputError(file, 0, "not a drive file: " + Printable(error.what(), 200));
   }

@@ -43,7 +43,9 @@ class Database {
     }
   }
   [[noreturn]] void Fail(const char* what) const {
-    throw MachineError(fmt::format("{}: cannot {}: {}", path_, what, ::sqlite3_errmsg(handle())));
+    throw MachineError(
+        fmt::format("{}: cannot {}: {}; if the file is damaged, move it away to start a new one",
+                    path_, what, ::sqlite3_errmsg(handle())));
   }
   sqlite3* handle() const { return handle_.get(); }
 
@@ -66,6 +68,39 @@ class Database {
   const std::string path_;
   std::unique_ptr<sqlite3, Close> handle_;
 };
+
+/// SQLite makes an empty file and writes into it later. One that gets its name with its tables in
+/// it is never empty, even where the process is killed or another night looks at it meanwhile: so
+/// an empty file is one that was truncated.
+void MakeHistory(const fs::path& path) {
+  struct Aside {
+    explicit Aside(fs::path name) : file(std::move(name)) {}
+    ~Aside() {
+      std::error_code gone;
+      fs::remove(file, gone);
+    }
+    Aside(const Aside&) = delete;
+    Aside& operator=(const Aside&) = delete;
+    const fs::path file;
+  };
+  const Aside aside(path.string() + fmt::format(".tmp-{}", ::getpid()));
+  { const Database database(aside.file); }
+  // A rename would take the place of a file that another night has made meanwhile. Where the file
+  // system has no links, SQLite makes the file after all.
+  std::error_code no_link;
+  fs::create_hard_link(aside.file, path, no_link);
+}
+
+/// Throws MachineError for a file of no bytes, too, which SQLite takes for a new database.
+Database OpenHistory(const fs::path& path) {
+  std::error_code error;
+  if (fs::file_size(path, error) == 0) {
+    throw MachineError(path.string() +
+                       ": damaged: the file is empty and earlier nights are missing; restore it "
+                       "from a backup, or delete it to start a new one");
+  }
+  return Database(path);
+}
 
 /// A prepared statement whose values are bound, never pasted.
 class Statement {
@@ -171,7 +206,7 @@ std::string HistoryTrouble(const fs::path& path) {
     return fmt::format("{}: not writable: {}", folder.string(), std::strerror(errno));
   }
   try {
-    Database database(path);
+    Database database = OpenHistory(path);
     Statement check(database, "PRAGMA quick_check(1)");
     if (check.Step() && check.Text(0) == "ok") {
       check.Reset();
@@ -181,12 +216,14 @@ std::string HistoryTrouble(const fs::path& path) {
     }
     return path.string() + ": damaged (" + check.Text(0) + "): move it away to start a new one";
   } catch (const MachineError& trouble) {
-    return fmt::format("{}; if it is damaged, move it away to start a new one", trouble.what());
+    return trouble.what();
   }
 }
 
 void AppendToHistory(const fs::path& path, const Results& results, const fs::path& report) {
-  Database database(path);
+  std::error_code error;
+  if (!fs::exists(path, error)) MakeHistory(path);
+  Database database = OpenHistory(path);
   database.Run("BEGIN IMMEDIATE");
   Statement insert(
       database,
@@ -221,7 +258,7 @@ void AppendToHistory(const fs::path& path, const Results& results, const fs::pat
 std::string NightReplaced(const fs::path& path, const Results& results, const fs::path& report) {
   if (!fs::exists(path)) return "";
   try {
-    const Database database(path);
+    const Database database = OpenHistory(path);
     Statement select(database,
                      "SELECT folder FROM medians WHERE suite = ? AND started = ? AND "
                      "folder NOT IN ('', ?) LIMIT 1");  // where it is not known, it may be this one
@@ -240,7 +277,7 @@ std::string NightReplaced(const fs::path& path, const Results& results, const fs
 std::vector<TrendPoint> ReadHistory(const fs::path& path, const std::string& suite) {
   std::vector<TrendPoint> points;
   if (!fs::exists(path)) return points;
-  const Database database(path);
+  const Database database = OpenHistory(path);
   Statement select(database,
                    "SELECT started, commit_id, scene, twin, system, score, version, folder, "
                    "median, low, high, limit_value, seeds, failed FROM medians "

@@ -22,13 +22,13 @@ struct TrendPoint {
   std::string folder = {};  ///< of the night's report, from the file's folder on; empty: not known
 };
 
-/// What would keep a night from being filed there (a damaged file, a folder that cannot be
-/// written), with the remedy; empty: nothing. Makes no file.
+/// What would keep a night from being filed there (a damaged file, one of no bytes among them, a
+/// folder that cannot be written), with the remedy; empty: nothing. Makes no file.
 std::string HistoryTrouble(const std::filesystem::path& database);
 
 /// Files tonight's medians in an SQLite file (made where it is missing, brought up to date where an
 /// earlier version made it). `report` is the night's folder. The same evening filed twice is one
-/// evening. Throws MachineError.
+/// evening. Throws MachineError, with the remedy.
 void AppendToHistory(const std::filesystem::path& database, const Results& results,
                      const std::filesystem::path& report = {});
 
@@ -38,7 +38,8 @@ void AppendToHistory(const std::filesystem::path& database, const Results& resul
 std::string NightReplaced(const std::filesystem::path& database, const Results& results,
                           const std::filesystem::path& report);
 
-/// All nights of a suite in the order of time; empty where there is no file.
+/// All nights of a suite in the order of time; empty where there is no file. Throws MachineError
+/// where it is damaged, with the remedy.
 std::vector<TrendPoint> ReadHistory(const std::filesystem::path& database,
                                     const std::string& suite);
 

@@ -138,6 +138,17 @@ std::string ChunkRecord(std::uint64_t raw_size, const std::string& method,
   return record;
 }
 
+std::string OpeningWithChannelOne() {
+  std::string bytes(mcap::kMagic), channel;
+  mcap::Put(std::uint16_t{1}, &channel);
+  mcap::Put(std::uint16_t{0}, &channel);
+  mcap::PutText("/a", &channel);
+  mcap::PutText("cdr", &channel);
+  mcap::PutMap({}, &channel);
+  mcap::PutRecord(mcap::Op::kChannel, channel, &bytes);
+  return bytes;
+}
+
 TEST_F(McapTest, AChunkThatClaimsMuchMemoryIsNamed) {
   const auto claiming = [&](std::uint64_t size) {
     return WhyNot(
@@ -153,14 +164,7 @@ TEST_F(McapTest, AChunkThatClaimsMuchMemoryIsNamed) {
 /// Chunks of which the reader may keep one alone, read to and fro.
 TEST_F(McapTest, LargeChunksAreReadAgainWhenTheyAreAskedForAgain) {
   const std::size_t size = std::size_t{130} << 20;
-  std::string bytes(mcap::kMagic);
-  std::string channel;
-  mcap::Put(std::uint16_t{1}, &channel);
-  mcap::Put(std::uint16_t{0}, &channel);
-  mcap::PutText("/a", &channel);
-  mcap::PutText("cdr", &channel);
-  mcap::PutMap({}, &channel);
-  mcap::PutRecord(mcap::Op::kChannel, channel, &bytes);
+  std::string bytes = OpeningWithChannelOne();
   for (const char letter : {'a', 'b'}) {
     std::string message, records;
     mcap::Put(std::uint16_t{1}, &message);
@@ -177,6 +181,33 @@ TEST_F(McapTest, LargeChunksAreReadAgainWhenTheyAreAskedForAgain) {
   for (const std::size_t i : {0u, 1u, 0u, 1u}) {
     EXPECT_EQ(bag->Read(bag->entries()[i]), std::string(100, i == 0 ? 'a' : 'b'));
   }
+}
+
+/// Messages without a byte of content, each a step later than the one before.
+std::string EmptyMessages(std::uint64_t count, std::uint64_t step_ns) {
+  std::string message, records;
+  for (std::uint64_t k = 0; k < count; ++k) {
+    message.clear();
+    mcap::Put(std::uint16_t{1}, &message);
+    mcap::Put(std::uint32_t{0}, &message);  // sequence
+    for (int stamp = 0; stamp < 2; ++stamp) mcap::Put(kStart + k * step_ns, &message);
+    mcap::PutRecord(mcap::Op::kMessage, message, &records);
+  }
+  return records;
+}
+
+TEST_F(McapTest, AFileOfFewBytesHasNoMillionsOfMessages) {
+  constexpr std::uint64_t kMany = (std::uint64_t{1} << 20) + 1;
+  const auto file_of = [&](std::uint64_t count, std::uint64_t step_ns) {
+    const std::string records = EmptyMessages(count, step_ns);
+    std::string bytes =
+        OpeningWithChannelOne() + ChunkRecord(records.size(), "zstd", CompressZstd(records, 3));
+    mcap::PutRecord(mcap::Op::kDataEnd, std::string(4, '\0'), &bytes);
+    return Put(bytes);
+  };
+  EXPECT_THAT(WhyNot(file_of(kMany, 0)), HasSubstr("has more than 1048576 messages in "));
+  EXPECT_EQ(OpenBag(file_of(kMany - 1, 0))->entries().size(), kMany - 1);
+  EXPECT_EQ(OpenBag(file_of(kMany, 1'000'000))->entries().size(), kMany) << "a recording";
 }
 
 TEST_F(McapTest, Lz4FramesAreRead) {

@@ -180,5 +180,14 @@ TEST(JobTest, WhatIsNoJobIsSaidSo) {
   }
 }
 
+TEST(JobTest, NestingBeyondAnyJobIsNamedWithTheFile) {
+  try {
+    JobFromJson(std::string(100, '[') + std::string(100, ']'), "job.json");
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "job.json: not a job file: nested deeper than 64 levels");
+  }
+}
+
 }  // namespace
 }  // namespace aisle

@@ -229,6 +229,12 @@ TEST(WithHistory, AFileThatIsDamagedIsToldByTheCommandAndThePage) {
                                  "; if the file is damaged, move it away to start a new one\n"));
   EXPECT_THAT(ReadFile(out / "index.html"),
               testing::HasSubstr("The trends do not include this run: " + why));
+  WriteFileAtomically(HistoryPath(out), "");
+  const std::string cut = HistoryPath(out).string() + ": damaged: the file is empty";
+  EXPECT_EQ(Exit({"report", out.string()}, &said), kAllPassed) << said;
+  EXPECT_THAT(said, testing::HasSubstr("the trends do not include this run: " + cut));
+  EXPECT_THAT(ReadFile(out / "index.html"),
+              testing::HasSubstr("The trends do not include this run: " + cut));
   fs::remove(HistoryPath(out));
   EXPECT_EQ(Exit({"report", out.string()}, &said), kAllPassed);
   EXPECT_THAT(said, testing::Not(testing::HasSubstr("trends")));

@@ -54,6 +54,10 @@ TEST_F(ScratchTest, SubmissionAndVerdictComeBackAndDamageIsAbsence) {
   EXPECT_EQ(ReadVerdict(base_), (ClusterVerdict{"now-1", 1}));
   WriteFileAtomically(base_ / "cluster" / "verdict.json", "{\"submission\": ");
   EXPECT_FALSE(ReadVerdict(base_));
+  const std::string deep = std::string(100, '[') + std::string(100, ']');
+  WriteFileAtomically(base_ / "cluster" / "verdict.json",
+                      "{\"submission\": \"now-1\", \"exit_code\": 0, \"more\": " + deep + "}");
+  EXPECT_FALSE(ReadVerdict(base_)) << "nested deeper than any file of ours";
 }
 
 }  // namespace

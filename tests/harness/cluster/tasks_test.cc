@@ -91,5 +91,14 @@ TEST(TasksTest, WhatIsNoListIsSaidSo) {
   }
 }
 
+TEST(TasksTest, NestingBeyondAnyListIsNamedWithTheFile) {
+  try {
+    TasksFromJson(std::string(100, '[') + std::string(100, ']'), "tasks.json", {});
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "tasks.json: not a task list: nested deeper than 64 levels");
+  }
+}
+
 }  // namespace
 }  // namespace aisle

@@ -12,6 +12,7 @@
 #include "harness/io/crc32.h"
 #include "harness/io/file.h"
 #include "harness/io/input_error.h"
+#include "harness/io/png_size.h"
 
 namespace aisle {
 namespace {
@@ -100,6 +101,20 @@ std::string BigEndian(std::uint32_t value) {
 std::string Chunk(const std::string& name, const std::string& data) {
   return BigEndian(static_cast<std::uint32_t>(data.size())) + name + data +
          BigEndian(Crc32(name + data));
+}
+
+/// Where the header has to be stands another chunk, whose bytes are no size.
+TEST_F(FloatImageTest, APngThatDoesNotOpenWithItsHeaderIsNone) {
+  const std::string png =
+      "\x89PNG\r\n\x1a\n" + Chunk("gAMA", BigEndian(45455)) +
+      Chunk("IHDR", BigEndian(4) + BigEndian(1) + std::string("\x8\0\0\0\0", 5));
+  EXPECT_FALSE(SizeOfPng(png));
+  try {
+    ReadGreyPng(Write("late.png", png));
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::EndsWith("late.png: not a PNG image"));
+  }
 }
 
 /// A row of four pixels of so many bits; zlib's stream holds it as it is.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <chrono>
 #include <limits>
 #include <set>
 
@@ -129,6 +130,15 @@ TEST(DriveJson, WhatIsNoDriveIsRefusedWithItsFile) {
       EXPECT_EQ(std::string(error.what()).find("some/drive.json"), 0u) << error.what();
     }
   }
+}
+
+/// Each held against all before it, they would take a minute and more.
+TEST(DriveJson, ManyKeysTakeLittleTime) {
+  std::string text = "{";
+  for (int i = 0; i < 200'000; ++i) text += fmt::format("\"column_{}\":1,", i);
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_THROW(DriveLogFromJson(text + "\"schema\":0}", "drive.json"), InputError);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
 }
 
 TEST(DriveNames, EveryEndAndModeHasItsOwn) {

@@ -3,11 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sqlite3.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <fstream>
 #include <set>
 
+#include "harness/io/input_error.h"
 #include "tests/harness/record/two_systems.h"
 
 namespace aisle {
@@ -162,6 +165,52 @@ TEST_F(HistoryTest, WhatKeepsANightFromItIsKnownBefore) {
   EXPECT_NE(HistoryTrouble(file_).find("not a database"), std::string::npos)
       << HistoryTrouble(file_);
   EXPECT_EQ(HistoryTrouble(file_ / "a/history.sqlite"), file_.string() + ": not a folder");
+}
+
+/// SQLite itself takes it for a new database, and the nights before would be gone without a word.
+TEST_F(HistoryTest, AFileThatWasCutToNothingIsToldAndLeftAsItIs) {
+  std::ofstream(file_).close();
+  const auto says_what_to_do =
+      testing::AllOf(testing::StartsWith(file_.string() + ": damaged: the file is empty"),
+                     testing::HasSubstr("restore it"), testing::HasSubstr("delete it"));
+  const auto why_not = [](const auto& call) -> std::string {
+    try {
+      call();
+    } catch (const MachineError& trouble) {
+      return trouble.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(HistoryTrouble(file_), says_what_to_do);
+  EXPECT_THAT(why_not([&] { ReadHistory(file_, "nightly"); }), says_what_to_do);
+  EXPECT_THAT(why_not([&] { AppendToHistory(file_, Night("1", 0.01)); }), says_what_to_do);
+  EXPECT_EQ(NightReplaced(file_, Night("1", 0.01), file_.parent_path() / "out"), "");
+  EXPECT_EQ(fs::file_size(file_), 0u);
+  fs::remove(file_);
+  AppendToHistory(file_, Night("1", 0.01));
+  EXPECT_FALSE(ReadHistory(file_, "nightly").empty()) << "a new one";
+}
+
+TEST_F(HistoryTest, AFirstNightThatCannotBeWrittenLeavesNoEmptyFile) {
+  struct rlimit before {};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  struct rlimit nothing = before;
+  nothing.rlim_cur = 0;
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);  // writing fails, as on a full disk
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &nothing), 0);
+  EXPECT_THROW(AppendToHistory(file_, Night("1", 0.01)), MachineError);
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_FALSE(fs::exists(file_));
+  EXPECT_EQ(HistoryTrouble(file_), "");
+}
+
+TEST_F(HistoryTest, TheFirstNightLeavesNothingBesideItsFile) {
+  AppendToHistory(file_, Night("1", 0.01));
+  for (const auto& entry : fs::directory_iterator(file_.parent_path())) {
+    const std::string name = entry.path().filename().string();
+    EXPECT_TRUE(!name.starts_with(file_.filename().string()) || entry.path() == file_) << name;
+  }
 }
 
 TEST_F(HistoryTest, NamesAreValuesAndNeverStatements) {
