@@ -70,7 +70,7 @@ void NoteObservations(const Frame& frame, TrackedFrame& result) {
 }
 
 void NotePose(const FramePose& pose, TrackedFrame& result) {
-  result.matched_points = static_cast<int>(pose.matches.size());
+  result.matched_points = static_cast<int>(pose.matches.size() + pose.right_matches.size());
   result.inliers = pose.pose.inliers;
   for (std::size_t i = 0; i < pose.matches.size(); ++i) {
     result.keypoint_is_inlier[static_cast<std::size_t>(pose.matches[i].feature)] =
@@ -87,7 +87,7 @@ struct Rejection {
 
 /// What a frame shows outside movers, and the same motion.
 struct Sight {
-  std::shared_ptr<const Frame> frame;
+  StereoSight seen;
   std::optional<MeasuredMotion> rig_motion;
 };
 
@@ -177,14 +177,16 @@ TrackedFrame StereoSlam::Impl::Track(const StereoImages& images, const ExternalM
   result.stamp_ns = images.stamp_ns;
   Sight sight;
   arena.Execute([&] { sight = See(images, mask, motion, result); });
-  const std::shared_ptr<const Frame>& frame = sight.frame;
+  const std::shared_ptr<const Frame>& frame = sight.seen.frame;
   TakeDueWork(result);
   track.Roll(options.base == Base::kPlain ? motion : std::nullopt, images.stamp_ns,
              options.track.inertia, IsFound() ? sight.rig_motion : std::nullopt);
 
   Stopwatch track_time(result.stage_ms["track"]);
   const Map& map = keeper.map();
-  std::optional<FramePose> pose = map.empty() ? std::nullopt : policy->Find(frame, Drive());
+  DriveState drive = Drive();
+  drive.right = sight.seen.right.get();
+  std::optional<FramePose> pose = map.empty() ? std::nullopt : policy->Find(frame, drive);
   if (pose) {
     result.is_keyframe = !options.localise_only && TakeAsKeyframe(frame, *pose);
   } else if (map.empty() || IsTimeForANewPart(images.stamp_ns)) {
@@ -230,8 +232,10 @@ Sight StereoSlam::Impl::See(const StereoImages& images, const ExternalMask& mask
     Stopwatch time(result.stage_ms["extract"]);
     finding.Wait();
   }
-  return {SeeFrame(images, std::move(corners), rejected.mask, camera, options, result.stage_ms),
-          rejected.rig_motion};
+  Sight sight{SeeFrame(images, std::move(corners), rejected.mask, camera, options, result.stage_ms),
+              rejected.rig_motion};
+  if (!TellsOfBoth(mask)) sight.seen.right.reset();
+  return sight;
 }
 
 /// Whether a map from before the drive may tell the search for movers how the rig moves.

@@ -37,7 +37,7 @@ struct TrackedFrame {
   int map_id = 0;
   int features = 0;        ///< keypoints in the left image after rejection
   int stereo_points = 0;   ///< of them, those with depth
-  int matched_points = 0;  ///< matched to the map
+  int matched_points = 0;  ///< matched to the map, in either image; a landmark counts once
   int inliers = 0;         ///< kept by pose refinement
   bool is_keyframe = false;
   int map_keyframes = 0;   ///< size of the map after this frame: it grows with the place ...

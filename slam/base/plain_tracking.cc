@@ -8,14 +8,15 @@ namespace aisle::slam {
 
 std::optional<FramePose> PlainTracking::Find(const std::shared_ptr<const Frame>& frame,
                                              const DriveState& drive) {
-  const PlainContext context{drive.map, *frame, camera_, options_.feature.levels, options_.track};
+  const PlainContext context{drive.map,      *frame,     camera_, options_.feature.levels,
+                             options_.track, drive.right};
   if (drive.memory.measured)
     return TrackMeasured(context, drive.memory, drive.places, drive.frame_number);
   if (drive.in_prior_map) {
     if (auto found = TrackInPriorMap(context, drive.memory, *drive.in_prior_map)) return found;
   }
   if (!drive.lost) return TrackCarried(context, drive.memory, drive.places, drive.frame_number);
-  return Relocalise(context, drive.memory, drive.places, drive.frame_number);
+  return Relocalise(LeftAlone(context), drive.memory, drive.places, drive.frame_number);
 }
 
 KeyframeVerdict PlainTracking::NeedsKeyframe(const Map& map, const Frame& frame,

@@ -18,6 +18,7 @@ struct DriveState {
   std::int64_t frame_number = 0;  ///< since the drive began
   bool lost = false;
   std::optional<PoseInPriorMap> in_prior_map = {};  ///< where the frame that has come was found
+  const Frame* right = nullptr;  ///< the frame that has come, as the right camera sees it by itself
 };
 
 /// How busy the mapper is.

@@ -51,6 +51,23 @@ Frame FrameOf(const StereoImages& images, ImageFeatures left,
   return frame;
 }
 
+/// The right camera's features, and what they measure by themselves.
+Frame RightFrameOf(const StereoImages& images, ImageFeatures right, const SlamOptions& options) {
+  Frame frame;
+  frame.id = images.id;
+  frame.stamp_ns = images.stamp_ns;
+  frame.scale = options.feature.scale;
+  for (const Keypoint& keypoint : right.features.keypoints) {
+    const double scale = right.pyramid.scales[static_cast<std::size_t>(keypoint.level)];
+    frame.measurements.push_back({.uvd = {keypoint.pixel.x, keypoint.pixel.y, 0},
+                                  .sigma_px = scale * options.keypoint_noise_px,
+                                  .right = true});
+  }
+  frame.grid = FeatureGrid(right.features.keypoints, images.right.size());
+  frame.features = std::move(right.features);
+  return frame;
+}
+
 }  // namespace
 
 void CheckImages(const StereoImages& images, const ExternalMask& mask, const StereoCamera& camera) {
@@ -87,6 +104,10 @@ void CheckMotion(const MeasuredMotion& motion) {
   }
 }
 
+bool TellsOfBoth(const ExternalMask& mask) {
+  return mask.confidence.empty() && (mask.left.empty() || !mask.right.empty());
+}
+
 cv::Mat1b Union(const cv::Mat1b& a, const cv::Mat1b& b) {
   if (a.empty()) return b;
   if (b.empty()) return a;
@@ -109,10 +130,9 @@ Frame SeeLeft(const StereoImages& images, ImageCorners corners, const ExternalMa
   return FrameOf(images, std::move(left), unknown, mask.confidence, options);
 }
 
-std::shared_ptr<const Frame> SeeFrame(const StereoImages& images, StereoCorners corners,
-                                      const ExternalMask& mask, const StereoCamera& camera,
-                                      const SlamOptions& options,
-                                      std::map<std::string, double>& stage_ms) {
+StereoSight SeeFrame(const StereoImages& images, StereoCorners corners, const ExternalMask& mask,
+                     const StereoCamera& camera, const SlamOptions& options,
+                     std::map<std::string, double>& stage_ms) {
   ImageFeatures left, right;
   {
     Stopwatch time(stage_ms["extract"]);
@@ -122,8 +142,11 @@ std::shared_ptr<const Frame> SeeFrame(const StereoImages& images, StereoCorners 
   }
   Stopwatch time(stage_ms["stereo"]);
   const std::vector<Disparity> disparities = MatchStereo(left, right, camera, options.stereo);
-  return std::make_shared<const Frame>(
-      FrameOf(images, std::move(left), disparities, mask.confidence, options));
+  StereoSight sight{std::make_shared<const Frame>(
+      FrameOf(images, std::move(left), disparities, mask.confidence, options))};
+  if (options.base == Base::kPlain)
+    sight.right = std::make_shared<const Frame>(RightFrameOf(images, std::move(right), options));
+  return sight;
 }
 
 }  // namespace aisle::slam

@@ -19,6 +19,9 @@ struct Measurement {
   /// What share of u's error the disparity has as well: 0 where it is measured by itself, 1 where
   /// it is the left column less a right one that sigma_d is the deviation of.
   double u_in_d = 0;
+  /// Of the right camera alone: u is a column of the right image, which is the left one less the
+  /// disparity, and there is no depth.
+  bool right = false;
 
   bool has_depth() const { return sigma_d > 0; }
 };

@@ -10,9 +10,11 @@
 namespace aisle::slam {
 namespace {
 
-/// Error over deviation: rows u, v, and disparity (zero where not measured).
+/// Error over deviation: rows u, v, and disparity (zero where not measured). Of the right camera
+/// alone u is that of its own image.
 Eigen::Vector3d Whitened(const Measurement& measurement, const Eigen::Vector3d& predicted) {
-  const Eigen::Vector3d error = measurement.uvd - predicted;
+  Eigen::Vector3d error = measurement.uvd - predicted;
+  if (measurement.right) error.x() += predicted.z();
   return {error.x() / measurement.sigma_px, error.y() / measurement.sigma_px,
           measurement.has_depth()
               ? (error.z() - measurement.u_in_d * error.x()) / measurement.sigma_d
@@ -55,6 +57,7 @@ class PoseProblem {
       if (!active[i] || point.z() < kNearestVisible_m) continue;
       const Eigen::Vector3d error = Whitened(measurement, Project(camera_, point));
       Eigen::Matrix3d by_point = -ProjectionJacobian(camera_, point);
+      if (measurement.right) by_point.row(0) -= by_point.row(2);
       by_point.row(2) -= measurement.u_in_d * by_point.row(0);
       by_point.topRows<2>() /= measurement.sigma_px;
       by_point.row(2) *= measurement.has_depth() ? 1.0 / measurement.sigma_d : 0.0;

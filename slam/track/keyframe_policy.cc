@@ -40,7 +40,9 @@ bool HasMoved(const Eigen::Isometry3d& T_reference_rig, double median_depth_m,
 
 bool NeedsKeyframe(const Map& map, const Frame& frame, const FramePose& pose,
                    const StereoCamera& camera, const KeyframeOptions& options) {
-  if (pose.pose.inliers < options.least_inliers) return false;
+  // What the right camera alone shows does not join the map.
+  const int inliers = LeftInliers(pose);
+  if (inliers < options.least_inliers) return false;
   const Keyframe& reference = map.At(pose.local.reference);
   const Eigen::Isometry3d T_reference_rig =
       (pose.pose.T_rig_world * reference.T_world_rig).inverse();
@@ -51,7 +53,7 @@ bool NeedsKeyframe(const Map& map, const Frame& frame, const FramePose& pose,
       close.tracked < options.few_close && close.untracked > options.many_new_close;
   const double share =
       map.keyframes().size() < 2 ? options.first_tracked_share : options.tracked_share;
-  return lacks_close || pose.pose.inliers < share * ProvenLandmarks(map, reference);
+  return lacks_close || inliers < share * ProvenLandmarks(map, reference);
 }
 
 }  // namespace aisle::slam

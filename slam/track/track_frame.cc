@@ -86,17 +86,13 @@ bool IsNear(const Eigen::Isometry3d& T_predicted_world, const Eigen::Isometry3d&
 
 std::vector<Expected> ExpectAround(const PlainContext& context, const TrackMemory& memory,
                                    const Eigen::Isometry3d& T_rig_world) {
-  const auto& [map, frame, camera, levels, options] = context;
+  const auto& [map, frame, camera, levels, options, right] = context;
   return ExpectAll(FindLocalMap(map, memory.landmarks, options.local_keyframes).landmarks, camera,
                    T_rig_world, frame.scale, levels);
 }
 
 std::vector<LandmarkId> Inliers(const std::vector<Match>& matches, const RefinedPose& pose) {
-  std::vector<LandmarkId> inliers;
-  for (std::size_t i = 0; i < matches.size(); ++i) {
-    if (pose.inlier[i]) inliers.push_back(matches[i].landmark);
-  }
-  return inliers;
+  return InliersOfBoth(matches, {}, pose);
 }
 
 std::optional<FramePose> RefineInLocalMap(const PlainContext& context,
@@ -109,8 +105,10 @@ std::optional<FramePose> RefineInLocalMap(const PlainContext& context,
       result.local.landmarks, context.camera, T_rig_world, context.frame.scale, context.levels);
   for (const Expected& one : expected) result.expected.push_back(one.landmark->id);
   result.matches = MatchByProjection(context.frame, expected, context.options.local_map);
-  result.pose = RefinePose(context.camera, T_rig_world,
-                           ObservationsOf(context.map, context.frame, result.matches), refine);
+  result.right_matches = MatchRight(context, expected, result.matches, context.options.local_map);
+  result.pose =
+      RefinePose(context.camera, T_rig_world,
+                 ObservationsOfBoth(context, result.matches, result.right_matches), refine);
   if (result.pose.inliers < context.options.least_map_inliers || !result.pose.well_posed) {
     return std::nullopt;
   }
@@ -123,13 +121,18 @@ void Sharpen(const PlainContext& context, const RefinePoseOptions& refine, Frame
   if (context.frame.patches.empty()) return;
   std::vector<Measurement> measurements =
       AlignMatches(context, found->pose.T_rig_world, found->matches);
-  RefinedPose sharp = RefinePose(context.camera, found->pose.T_rig_world,
-                                 ObservationsOf(context.map, measurements, found->matches), refine);
+  RefinedPose sharp = RefinePose(
+      context.camera, found->pose.T_rig_world,
+      ObservationsOfBoth(context, measurements, found->matches, found->right_matches), refine);
   const double enough = std::max(kStillAgree * found->pose.inliers,
                                  static_cast<double>(context.options.least_map_inliers));
   if (!sharp.well_posed || sharp.inliers < enough) return;
   found->pose = std::move(sharp);
   found->measurements = std::move(measurements);
+}
+
+int LeftInliers(const FramePose& found) {
+  return static_cast<int>(Inliers(found.matches, found.pose).size());
 }
 
 bool IsConvincing(const FramePose& found, const TrackOptions& options) {
@@ -138,7 +141,7 @@ bool IsConvincing(const FramePose& found, const TrackOptions& options) {
 }
 
 std::optional<FramePose> TrackFrame(const PlainContext& context, const TrackMemory& memory) {
-  const auto& [map, frame, camera, levels, options] = context;
+  const auto& [map, frame, camera, levels, options, right] = context;
   const Eigen::Isometry3d T_world_last = memory.PoseIn(map);
   const double gap_s = SecondsBetween(memory.stamp_ns, frame.stamp_ns);
   const bool gap_is_short = gap_s <= options.longest_gap_s;
@@ -173,7 +176,7 @@ bool CanBeThere(const PlainContext& context, const TrackMemory& memory, const Fr
 }
 
 std::optional<FramePose> FindAgain(const PlainContext& context, const TrackMemory& memory) {
-  const auto& [map, frame, camera, levels, options] = context;
+  const auto& [map, frame, camera, levels, options, right] = context;
   const DeadReckoningOptions& reckoning = options.dead_reckoning;
   const double gap_s = SecondsBetween(memory.stamp_ns, frame.stamp_ns);
   const auto reckoned = DeadReckoned(context, memory);
@@ -183,7 +186,7 @@ std::optional<FramePose> FindAgain(const PlainContext& context, const TrackMemor
 
   TrackOptions relaxed = options;
   relaxed.least_map_inliers = reckoning.least_inliers;
-  const PlainContext relaxed_context{map, frame, camera, levels, relaxed};
+  const PlainContext relaxed_context{map, frame, camera, levels, relaxed, right};
   for (const double grown_px : {0.0, reckoning.radius_growth_px_per_s * gap_s}) {
     MatchOptions match_options = reckoning.match;
     match_options.radius_px += grown_px;

@@ -6,6 +6,7 @@
 #include "slam/map/map.h"
 #include "slam/map/match_by_projection.h"
 #include "slam/optimize/refine_pose.h"
+#include "slam/track/both_cameras.h"
 #include "slam/track/inertia.h"
 #include "slam/track/local_map.h"
 #include "slam/track/motion_model.h"
@@ -13,8 +14,6 @@
 #include "slam/track/tracking_context.h"
 
 namespace aisle::slam {
-
-using PlainContext = TrackingContext<TrackOptions>;
 
 /// What the next frame builds upon.
 struct TrackMemory {
@@ -43,12 +42,16 @@ struct TrackMemory {
 
 /// A frame's place in the map.
 struct FramePose {
-  RefinedPose pose;                            ///< inlier[i] tells of matches[i]
-  std::vector<Match> matches;                  ///< features to landmarks, by rising feature
+  RefinedPose pose;            ///< inlier[i] tells of matches[i], then of right_matches
+  std::vector<Match> matches;  ///< features to landmarks, by rising feature
   std::vector<Measurement> measurements = {};  ///< of matches[i]; or none: those of the frame
+  std::vector<Match> right_matches = {};  ///< of landmarks that the right camera alone has shown
   LocalMap local;
   std::vector<LandmarkId> expected;  ///< landmarks that should have been seen
 };
+
+/// How many landmarks the left camera has found where the pose has them.
+int LeftInliers(const FramePose& found);
 
 /// Whether a pose explains TrackOptions::convincing_share of what should be seen from it.
 bool IsConvincing(const FramePose& found, const TrackOptions& options);

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "slam/optimize/observations_of.h"
-
 namespace aisle::slam {
 namespace {
 
@@ -53,10 +51,10 @@ bool AgreesWithPrior(const FramePose& found, const Reckoned& reckoned, double mo
 /// it counts itself. Nothing where what they tell contradicts it.
 std::optional<FramePose> FindAround(const PlainContext& context, const TrackMemory& memory,
                                     const Reckoned& reckoned) {
-  const auto& [map, frame, camera, levels, options] = context;
+  const auto& [map, frame, camera, levels, options, right] = context;
   TrackOptions relaxed = options;
   relaxed.least_map_inliers = options.measured.least_inliers;
-  const PlainContext relaxed_context{map, frame, camera, levels, relaxed};
+  const PlainContext relaxed_context{map, frame, camera, levels, relaxed, right};
   RefinePoseOptions refine;
   refine.prior = {reckoned.T_rig_world, reckoned.covariance.inverse()};
 
@@ -64,16 +62,17 @@ std::optional<FramePose> FindAround(const PlainContext& context, const TrackMemo
   MatchOptions match = options.motion;
   match.radius_px += SearchGrowth(context, reckoned);
   const std::vector<Match> matches = MatchByProjection(frame, expected, match);
+  const std::vector<Match> right_matches = MatchRight(context, expected, matches, match);
   // First only those vote that agree with the measured pose as it is; it may be off by more than
   // they allow.
   for (const bool trusted : {true, false}) {
     refine.trust_start = trusted;
-    const RefinedPose first =
-        RefinePose(camera, reckoned.T_rig_world, ObservationsOf(map, frame, matches), refine);
+    const RefinedPose first = RefinePose(
+        camera, reckoned.T_rig_world, ObservationsOfBoth(context, matches, right_matches), refine);
     if (first.inliers < options.measured.least_inliers) continue;
     refine.trust_start = true;
-    auto found =
-        RefineInLocalMap(relaxed_context, first.T_rig_world, Inliers(matches, first), refine);
+    auto found = RefineInLocalMap(relaxed_context, first.T_rig_world,
+                                  InliersOfBoth(matches, right_matches, first), refine);
     if (found && AgreesWithPrior(*found, reckoned, options.measured.most_chi2)) return found;
   }
   return std::nullopt;
@@ -94,18 +93,24 @@ std::optional<FramePose> FindByLooks(const PlainContext& context, const TrackMem
 std::optional<FramePose> TrackMeasured(const PlainContext& context, const TrackMemory& memory,
                                        const Places& places, std::int64_t turn) {
   const Reckoned reckoned = ReckonedFrom(context.map, memory, *memory.measured);
-  if (auto found = FindAround(context, memory, reckoned)) return found;
-  return FindByLooks(context, memory, reckoned, places, turn);
+  const PlainContext left = LeftAlone(context);
+  const auto found = FindAround(left, memory, reckoned);
+  if (found && IsConvincing(*found, context.options)) return found;
+  const auto both = context.right ? FindAround(context, memory, reckoned) : std::nullopt;
+  if (both && (!found || both->pose.inliers > found->pose.inliers)) return both;
+  return found ? found : FindByLooks(left, memory, reckoned, places, turn);
 }
 
 std::optional<FramePose> TrackInPriorMap(const PlainContext& context, const TrackMemory& memory,
                                          const PoseInPriorMap& told) {
-  return FindAround(context, memory, {PoseOf(told, context.map).inverse(), told.covariance});
+  return FindAround(LeftAlone(context), memory,
+                    {PoseOf(told, context.map).inverse(), told.covariance});
 }
 
 std::optional<FramePose> TrackCarried(const PlainContext& context, const TrackMemory& memory,
                                       const Places& places, std::int64_t turn) {
-  auto found = TrackFrame(context, memory);
+  const PlainContext left = LeftAlone(context);
+  auto found = TrackFrame(left, memory);
   if (!memory.carried) return found;
   const bool convincing = found && IsConvincing(*found, context.options);
   if (convincing && memory.velocity) return found;
@@ -115,7 +120,7 @@ std::optional<FramePose> TrackCarried(const PlainContext& context, const TrackMe
   if (found && convincing) return found;
   auto around = FindAround(context, memory, reckoned);
   if (around && (!found || around->pose.inliers > found->pose.inliers)) return around;
-  return found ? found : FindByLooks(context, memory, reckoned, places, turn);
+  return found ? found : FindByLooks(left, memory, reckoned, places, turn);
 }
 
 }  // namespace aisle::slam

@@ -10,9 +10,10 @@ namespace aisle::slam {
 
 /// Finds a frame whose way from the last one is measured: landmarks are looked for around where
 /// that leads, those vote that agree with it, and it counts itself. A pose that contradicts it is
-/// that of something that moves, and is not believed, however many points it explains. Where
-/// nothing is found around there, keyframes are asked by their looks, under the same test.
-/// TrackMemory::measured must be there. Nothing where the images do not tell.
+/// that of something that moves, and is not believed, however many points it explains. Where the
+/// left camera does not convince, both are asked; where nothing is found around there, keyframes
+/// are asked by their looks, under the same test. TrackMemory::measured must be there. Nothing
+/// where the images do not tell.
 std::optional<FramePose> TrackMeasured(const PlainContext& context, const TrackMemory& memory,
                                        const Places& places, std::int64_t turn);
 
@@ -22,10 +23,10 @@ std::optional<FramePose> TrackInPriorMap(const PlainContext& context, const Trac
                                          const PoseInPriorMap& told);
 
 /// Finds the frame in the map as TrackFrame does. A pose that explains too little of what should be
-/// seen must be where the rig's inertia can have carried it, and contends with what is found by
-/// looking there, as if inertia were a measurement: who explains more is believed. While there is
-/// no velocity, and what is carried is what the images have shown of the rig's motion, no pose may
-/// contradict it. Nothing if neither finds it.
+/// seen must be where the rig's inertia can have carried it, and contends with what both
+/// cameras find by looking there, as if inertia were a measurement: who explains more is believed.
+/// While there is no velocity, and what is carried is what the images have shown of the rig's
+/// motion, no pose may contradict it. Nothing if neither finds it.
 std::optional<FramePose> TrackCarried(const PlainContext& context, const TrackMemory& memory,
                                       const Places& places, std::int64_t turn);
 

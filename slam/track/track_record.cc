@@ -49,10 +49,7 @@ void TrackRecord::Note(const Map& map, const Frame& frame, const FramePose& pose
                                  : std::nullopt;
   memory_.motion = motion;
   memory_.measured = MeasuredMotion{Eigen::Isometry3d::Identity(), pose.pose.covariance};
-  memory_.landmarks.clear();
-  for (std::size_t i = 0; i < pose.matches.size(); ++i) {
-    if (pose.pose.inlier[i]) memory_.landmarks.push_back(pose.matches[i].landmark);
-  }
+  memory_.landmarks = InliersOfBoth(pose.matches, pose.right_matches, pose.pose);
   track_.push_back({frame.stamp_ns, memory_.reference, memory_.T_reference_rig});
 }
 
@@ -65,9 +62,8 @@ void TrackRecord::Count(const FramePose& pose, const LookOptions& options) {
   }
   counted_at_ = T_world_rig;
   for (const LandmarkId id : pose.expected) ++counts_[id].first;
-  for (std::size_t i = 0; i < pose.matches.size(); ++i) {
-    if (pose.pose.inlier[i]) ++counts_[pose.matches[i].landmark].second;
-  }
+  for (const LandmarkId id : InliersOfBoth(pose.matches, pose.right_matches, pose.pose))
+    ++counts_[id].second;
 }
 
 void TrackRecord::Roll(const std::optional<MeasuredMotion>& motion, std::int64_t stamp_ns,

@@ -14,6 +14,7 @@ struct TrackingContext {
   const StereoCamera& camera;
   int levels;  ///< of the feature pyramid
   const Options& options;
+  const Frame* right = nullptr;  ///< what the right camera sees by itself; null: nobody asks it
 };
 
 }  // namespace aisle::slam

@@ -32,11 +32,15 @@ StereoImages Plane() {
           wide(cv::Rect(kShift, 0, kCamera.width, kCamera.height)).clone()};
 }
 
-std::shared_ptr<const Frame> See(const ExternalMask& mask = {}, const SlamOptions& options = {}) {
+StereoSight SeeBoth(const ExternalMask& mask, const SlamOptions& options) {
   const StereoImages images = Plane();
   std::map<std::string, double> stage_ms;
   return SeeFrame(images, FindStereoCorners(images, options.feature), mask, kCamera, options,
                   stage_ms);
+}
+
+std::shared_ptr<const Frame> See(const ExternalMask& mask = {}, const SlamOptions& options = {}) {
+  return SeeBoth(mask, options).frame;
 }
 
 TEST(Union, IsWhatEitherRejectsAndAnEmptyMaskRejectsNothing) {
@@ -127,6 +131,40 @@ TEST(SeeFrame, MeasuresTheDisparityThatIsThere) {
   }
   EXPECT_GT(with_depth, 100);
   EXPECT_GT(near, 0.97 * with_depth);
+}
+
+TEST(SeeFrame, TheRightCameraSeesByItselfOutsideItsMask) {
+  ExternalMask mask;
+  mask.right = cv::Mat1b(kCamera.height, kCamera.width, std::uint8_t{0});
+  mask.right(cv::Rect(0, 0, kCamera.width / 2, kCamera.height)).setTo(255);
+  const SlamOptions options;
+  const auto right = SeeBoth(mask, options).right;
+  ASSERT_TRUE(right);
+  ASSERT_GT(right->size(), 50);
+  ASSERT_EQ(std::ssize(right->measurements), right->size());
+  for (std::size_t i = 0; i < right->measurements.size(); ++i) {
+    const Measurement& m = right->measurements[i];
+    EXPECT_TRUE(m.right);
+    EXPECT_FALSE(m.has_depth());
+    EXPECT_EQ(m.uvd.x(), right->features.keypoints[i].pixel.x);
+    EXPECT_EQ(m.uvd.y(), right->features.keypoints[i].pixel.y);
+    EXPECT_EQ(mask.right(static_cast<int>(m.uvd.y()), static_cast<int>(m.uvd.x())), 0);
+    const double scale = std::pow(options.feature.scale, right->features.keypoints[i].level);
+    EXPECT_NEAR(m.sigma_px, scale * options.keypoint_noise_px, 1e-9);
+  }
+}
+
+TEST(SeeFrame, OrbSlam2DoesNotAskTheRightCameraByItself) {
+  EXPECT_FALSE(SeeBoth({}, OptionsOf(Base::kOrbSlam2)).right);
+}
+
+TEST(TellsOfBoth, WhatIsSaidOfTheLeftImageAloneIsNotKnownInTheRightOne) {
+  const cv::Mat1b some = RandomMask(1);
+  EXPECT_TRUE(TellsOfBoth({}));
+  EXPECT_TRUE(TellsOfBoth({some, some, {}}));
+  EXPECT_TRUE(TellsOfBoth({{}, some, {}}));
+  EXPECT_FALSE(TellsOfBoth({some, {}, {}}));
+  EXPECT_FALSE(TellsOfBoth({some, some, cv::Mat1f(2, 2, 1.0F)}));
 }
 
 TEST(SeeFrame, SeesNothingUnderTheMaskAndAllWithoutOne) {

@@ -24,21 +24,27 @@ class PointWorld {
     }
   }
 
-  std::shared_ptr<const Frame> See(const Eigen::Isometry3d& T_world_rig,
-                                   std::int64_t stamp_ns) const {
+  enum class Eye { kLeft, kRight };
+
+  /// What a camera sees of the world right of the column `from_u` of its image; the left one with
+  /// disparities.
+  std::shared_ptr<const Frame> See(const Eigen::Isometry3d& T_world_rig, std::int64_t stamp_ns,
+                                   Eye eye = Eye::kLeft, double from_u = 0) const {
     const StereoCamera camera;
     auto frame = std::make_shared<Frame>();
     frame->stamp_ns = stamp_ns;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const Eigen::Vector3d in_rig = T_world_rig.inverse() * points_[i];
       if (in_rig.z() < 0.5) continue;
-      const Eigen::Vector3d uvd = Project(camera, in_rig);
-      if (!InImage(camera, uvd.x(), uvd.y())) continue;
+      Eigen::Vector3d uvd = Project(camera, in_rig);
+      const bool right = eye == Eye::kRight;
+      if (right) uvd = {uvd.x() - uvd.z(), uvd.y(), 0};
+      if (!InImage(camera, uvd.x(), uvd.y()) || uvd.x() < from_u) continue;
       Keypoint keypoint;
       keypoint.pixel = {static_cast<float>(uvd.x()), static_cast<float>(uvd.y())};
       frame->features.keypoints.push_back(keypoint);
       frame->features.descriptors.push_back(descriptors_[i]);
-      frame->measurements.push_back({uvd, 1, 0.3});
+      frame->measurements.push_back({uvd, 1, right ? 0 : 0.3, 0, right});
     }
     frame->grid = FeatureGrid(frame->features.keypoints, {camera.width, camera.height});
     return frame;

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <set>
 
 #include "slam/optimize/observations_of.h"
 #include "slam/place/place_index.h"
+#include "slam/track/keyframe_policy.h"
 #include "tests/slam/track/point_world.h"
 
 namespace aisle::slam {
@@ -105,6 +107,92 @@ TEST_F(TrackMeasuredTest, ARigInMotionIsNotStoppedByWhoHidesMostOfTheMap) {
   const auto found = TrackCarried(context, memory, {nullptr, index}, 0);
   ASSERT_TRUE(found);
   EXPECT_LT(Difference(truth.inverse(), found->pose.T_rig_world).norm(), 0.015);
+}
+
+/// Somebody stands before the left camera, and so close that the right one looks past him.
+class BehindSomebodyClose : public TrackMeasuredTest {
+ protected:
+  static constexpr double kFromLeft_px = 730, kFromRight_px = 520;
+  const Eigen::Isometry3d truth = At(0, 0.05), said = At(0.003, 0.058, 0.2);
+  const std::shared_ptr<const Frame> left = world.See(truth, kStep_ns, PointWorld::Eye::kLeft,
+                                                      kFromLeft_px),
+                                     right = world.See(truth, kStep_ns, PointWorld::Eye::kRight,
+                                                       kFromRight_px);
+  const TrackOptions options;
+  const StereoCamera camera;
+  const PlainContext left_alone{map, *left, camera, 8, options},
+      both{map, *left, camera, 8, options, right.get()};
+};
+
+TEST_F(BehindSomebodyClose, TheRightCameraFindsWhatTheLeftOneDoesNotSee) {
+  const auto expect_found = [&](const auto& track) {
+    EXPECT_FALSE(track(left_alone));
+    const auto found = track(both);
+    ASSERT_TRUE(found);
+    EXPECT_LT(Difference(truth.inverse(), found->pose.T_rig_world).norm(), 0.002);
+    EXPECT_LT(std::ssize(found->matches), options.measured.least_inliers);
+    EXPECT_GT(found->right_matches.size(), 50u);
+    ASSERT_EQ(found->pose.inlier.size(), found->matches.size() + found->right_matches.size());
+    EXPECT_GT(found->pose.inliers, 50);
+  };
+  memory.measured = Measured(said, 0.02, 0.01);
+  expect_found([&](const auto& context) {
+    return TrackMeasured(context, memory, {nullptr, index}, 0);
+  });
+  memory.carried = std::exchange(memory.measured, std::nullopt);
+  expect_found([&](const auto& context) {
+    return TrackCarried(context, memory, {nullptr, index}, 0);
+  });
+}
+
+TEST_F(BehindSomebodyClose, ALandmarkCountsOnceHoweverManyCamerasShowIt) {
+  memory.measured = Measured(said, 0.02, 0.01);
+  const auto all = world.See(truth, kStep_ns, PointWorld::Eye::kRight);
+  const auto found =
+      TrackMeasured({map, *left, camera, 8, options, all.get()}, memory, {nullptr, index}, 0);
+  ASSERT_TRUE(found);
+  std::set<LandmarkId> once;
+  for (const auto* matches : {&found->matches, &found->right_matches}) {
+    for (const Match& match : *matches) EXPECT_TRUE(once.insert(match.landmark).second);
+  }
+  EXPECT_GT(LeftInliers(*found), 0);
+  EXPECT_EQ(std::ssize(InliersOfBoth(found->matches, found->right_matches, found->pose)),
+            found->pose.inliers);
+  const std::set<LandmarkId> expected(found->expected.begin(), found->expected.end());
+  for (const LandmarkId id : once) EXPECT_TRUE(expected.contains(id));
+}
+
+/// The right camera's chance matches may not take away what the left one is sure of.
+TEST_F(BehindSomebodyClose, WhereTheLeftCameraConvincesTheRightOneIsNotAsked) {
+  const auto all = world.See(truth, kStep_ns);
+  const PlainContext alone{map, *all, camera, 8, options},
+      with_right{map, *all, camera, 8, options, right.get()};
+  const auto expect_same = [&](const auto& track) {
+    const auto a = track(alone), b = track(with_right);
+    ASSERT_TRUE(a && b);
+    EXPECT_TRUE(b->right_matches.empty());
+    EXPECT_EQ(a->pose.T_rig_world.matrix(), b->pose.T_rig_world.matrix());
+  };
+  memory.measured = Measured(said, 0.02, 0.01);
+  expect_same([&](const auto& context) {
+    return TrackMeasured(context, memory, {nullptr, index}, 0);
+  });
+  memory.carried = std::exchange(memory.measured, std::nullopt);
+  memory.velocity = Velocity{};
+  expect_same([&](const auto& context) {
+    return TrackCarried(context, memory, {nullptr, index}, 0);
+  });
+}
+
+/// A keyframe's links to the map are those of the left camera: without them it would be loose.
+TEST_F(BehindSomebodyClose, WhatTheRightCameraAloneHasFoundIsNoKeyframe) {
+  memory.measured = Measured(said, 0.02, 0.01);
+  const auto found = TrackMeasured(both, memory, {nullptr, index}, 0);
+  ASSERT_TRUE(found);
+  KeyframeOptions keyframe{.least_motion = 0};
+  EXPECT_FALSE(NeedsKeyframe(map, *left, *found, camera, keyframe));
+  keyframe.least_inliers = 0;  // all else asks for one
+  EXPECT_TRUE(NeedsKeyframe(map, *left, *found, camera, keyframe));
 }
 
 /// At five frames a second inertia allows for much, standing still by who goes along among it. More
