@@ -21,9 +21,10 @@ struct DeadReckoningOptions {
 
 /// What a vehicle's mass says of its motion: it goes on as it went.
 struct InertiaOptions {
-  /// Deviation of the acceleration, that of a frame independent of the last one's.
-  double acceleration_mps2 = 1.5;
-  double angular_acceleration_radps2 = 3;
+  /// Deviation of the acceleration, that of a frame independent of the last one's. As an industrial
+  /// vehicle brakes and turns in: the larger, the more of a velocity is the last poses' noise.
+  double acceleration_mps2 = 1;
+  double angular_acceleration_radps2 = 1;
   /// Of the difference between a pose found and the one expected, over its covariance; 99.99 % with
   /// six degrees of freedom. Beyond it the vehicle cannot have got there.
   double most_chi2 = 27.86;

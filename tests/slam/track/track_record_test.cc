@@ -85,13 +85,13 @@ class FoundAfterCoasting : public testing::Test {
 
 TEST_F(FoundAfterCoasting, TheErrorOfInertiaIsNoMotion) {
   Coast({});
-  Find(0.05 * 39 - 0.25, 39);  // at 0.74 m/s
+  Find(0.05 * 39 - 0.15, 39);  // at 0.84 m/s
   ASSERT_TRUE(record.memory().motion);
   EXPECT_GT(Ahead(record.memory().motion), 0.4);
   EXPECT_LT(Ahead(record.memory().motion), 1);
   EXPECT_GT(Ahead(record.memory().steady_motion), 0.7);
-  Find(0.05 * 39 - 0.25 + 0.037, 40);  // from here on steps are seen again
-  EXPECT_NEAR(Ahead(record.memory().motion), 0.74, 1e-6);
+  Find(0.05 * 39 - 0.15 + 0.042, 40);  // from here on steps are seen again
+  EXPECT_NEAR(Ahead(record.memory().motion), 0.84, 1e-6);
 }
 
 TEST_F(FoundAfterCoasting, WhatIsMeasuredIs) {
