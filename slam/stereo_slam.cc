@@ -185,7 +185,7 @@ TrackedFrame StereoSlam::Impl::Track(const StereoImages& images, const ExternalM
   Stopwatch track_time(result.stage_ms["track"]);
   const Map& map = keeper.map();
   DriveState drive = Drive();
-  drive.right = sight.seen.right.get();
+  if (TellsOfBoth(mask)) drive.right = sight.seen.right.get();
   std::optional<FramePose> pose = map.empty() ? std::nullopt : policy->Find(frame, drive);
   if (pose) {
     result.is_keyframe = !options.localise_only && TakeAsKeyframe(frame, *pose);
@@ -232,10 +232,8 @@ Sight StereoSlam::Impl::See(const StereoImages& images, const ExternalMask& mask
     Stopwatch time(result.stage_ms["extract"]);
     finding.Wait();
   }
-  Sight sight{SeeFrame(images, std::move(corners), rejected.mask, camera, options, result.stage_ms),
-              rejected.rig_motion};
-  if (!TellsOfBoth(mask)) sight.seen.right.reset();
-  return sight;
+  return {SeeFrame(images, std::move(corners), rejected.mask, camera, options, result.stage_ms),
+          rejected.rig_motion};
 }
 
 /// Whether a map from before the drive may tell the search for movers how the rig moves.

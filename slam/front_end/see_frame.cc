@@ -29,43 +29,51 @@ Measurement Measure(const Keypoint& keypoint, const Disparity& disparity, double
   return measurement;
 }
 
-/// The left camera's features, and what they measure with the disparities found of them.
-Frame FrameOf(const StereoImages& images, ImageFeatures left,
-              const std::vector<Disparity>& disparities, const cv::Mat1f& confidence,
-              const SlamOptions& options) {
+/// The frame of a camera's features, without patches.
+Frame FrameOf(const StereoImages& images, Features features, std::vector<Measurement> measurements,
+              double scale) {
   Frame frame;
   frame.id = images.id;
   frame.stamp_ns = images.stamp_ns;
-  frame.scale = options.feature.scale;
+  frame.scale = scale;
+  frame.measurements = std::move(measurements);
+  frame.grid = FeatureGrid(features.keypoints, images.left.size());
+  frame.features = std::move(features);
+  return frame;
+}
+
+double SigmaPx(const ImageFeatures& seen, const Keypoint& keypoint, const SlamOptions& options) {
+  return seen.pyramid.scales[static_cast<std::size_t>(keypoint.level)] * options.keypoint_noise_px;
+}
+
+/// The left camera's features, and what they measure with the disparities found of them.
+Frame LeftFrameOf(const StereoImages& images, ImageFeatures left,
+                  const std::vector<Disparity>& disparities, const cv::Mat1f& confidence,
+                  const SlamOptions& options) {
+  std::vector<Measurement> measurements;
   for (std::size_t i = 0; i < disparities.size(); ++i) {
     const Keypoint& keypoint = left.features.keypoints[i];
-    const double scale = left.pyramid.scales[static_cast<std::size_t>(keypoint.level)];
-    frame.measurements.push_back(Measure(keypoint, disparities[i],
-                                         scale * options.keypoint_noise_px, options.equal_columns,
-                                         confidence));
+    measurements.push_back(Measure(keypoint, disparities[i], SigmaPx(left, keypoint, options),
+                                   options.equal_columns, confidence));
   }
   const bool aligns = options.base == Base::kPlain && options.track.patch.radius_px > 0;
-  if (aligns) frame.patches = CutPatches(left);
-  frame.grid = FeatureGrid(left.features.keypoints, images.left.size());
-  frame.features = std::move(left.features);
+  std::vector<FeaturePatch> patches;
+  if (aligns) patches = CutPatches(left);
+  Frame frame =
+      FrameOf(images, std::move(left.features), std::move(measurements), options.feature.scale);
+  frame.patches = std::move(patches);
   return frame;
 }
 
 /// The right camera's features, and what they measure by themselves.
 Frame RightFrameOf(const StereoImages& images, ImageFeatures right, const SlamOptions& options) {
-  Frame frame;
-  frame.id = images.id;
-  frame.stamp_ns = images.stamp_ns;
-  frame.scale = options.feature.scale;
+  std::vector<Measurement> measurements;
   for (const Keypoint& keypoint : right.features.keypoints) {
-    const double scale = right.pyramid.scales[static_cast<std::size_t>(keypoint.level)];
-    frame.measurements.push_back({.uvd = {keypoint.pixel.x, keypoint.pixel.y, 0},
-                                  .sigma_px = scale * options.keypoint_noise_px,
-                                  .right = true});
+    measurements.push_back({.uvd = {keypoint.pixel.x, keypoint.pixel.y, 0},
+                            .sigma_px = SigmaPx(right, keypoint, options),
+                            .right = true});
   }
-  frame.grid = FeatureGrid(right.features.keypoints, images.right.size());
-  frame.features = std::move(right.features);
-  return frame;
+  return FrameOf(images, std::move(right.features), std::move(measurements), options.feature.scale);
 }
 
 }  // namespace
@@ -127,7 +135,7 @@ Frame SeeLeft(const StereoImages& images, ImageCorners corners, const ExternalMa
               const SlamOptions& options) {
   ImageFeatures left = ChooseFeatures(std::move(corners), mask.left, options.feature);
   const std::vector<Disparity> unknown(left.features.keypoints.size());
-  return FrameOf(images, std::move(left), unknown, mask.confidence, options);
+  return LeftFrameOf(images, std::move(left), unknown, mask.confidence, options);
 }
 
 StereoSight SeeFrame(const StereoImages& images, StereoCorners corners, const ExternalMask& mask,
@@ -143,7 +151,7 @@ StereoSight SeeFrame(const StereoImages& images, StereoCorners corners, const Ex
   Stopwatch time(stage_ms["stereo"]);
   const std::vector<Disparity> disparities = MatchStereo(left, right, camera, options.stereo);
   StereoSight sight{std::make_shared<const Frame>(
-      FrameOf(images, std::move(left), disparities, mask.confidence, options))};
+      LeftFrameOf(images, std::move(left), disparities, mask.confidence, options))};
   if (options.base == Base::kPlain)
     sight.right = std::make_shared<const Frame>(RightFrameOf(images, std::move(right), options));
   return sight;
