@@ -88,6 +88,7 @@ struct Rejection {
 /// What a frame shows outside movers, and the same motion.
 struct Sight {
   StereoSight seen;
+  cv::Mat1b rejected;  // of the left image
   std::optional<MeasuredMotion> rig_motion;
 };
 
@@ -186,6 +187,8 @@ TrackedFrame StereoSlam::Impl::Track(const StereoImages& images, const ExternalM
   const Map& map = keeper.map();
   DriveState drive = Drive();
   if (TellsOfBoth(mask)) drive.right = sight.seen.right.get();
+  const MaskedArea masked(sight.rejected, options.feature);
+  drive.masked = &masked;
   std::optional<FramePose> pose = map.empty() ? std::nullopt : policy->Find(frame, drive);
   if (pose) {
     result.is_keyframe = !options.localise_only && TakeAsKeyframe(frame, *pose);
@@ -233,7 +236,7 @@ Sight StereoSlam::Impl::See(const StereoImages& images, const ExternalMask& mask
     finding.Wait();
   }
   return {SeeFrame(images, std::move(corners), rejected.mask, camera, options, result.stage_ms),
-          rejected.rig_motion};
+          rejected.mask.left, rejected.rig_motion};
 }
 
 /// Whether a map from before the drive may tell the search for movers how the rig moves.

@@ -8,8 +8,8 @@ namespace aisle::slam {
 
 std::optional<FramePose> PlainTracking::Find(const std::shared_ptr<const Frame>& frame,
                                              const DriveState& drive) {
-  const PlainContext context{drive.map,      *frame,     camera_, options_.feature.levels,
-                             options_.track, drive.right};
+  const PlainContext context{drive.map,      *frame,      camera_,     options_.feature.levels,
+                             options_.track, drive.right, drive.masked};
   if (drive.memory.measured)
     return TrackMeasured(context, drive.memory, drive.places, drive.frame_number);
   if (drive.in_prior_map) {

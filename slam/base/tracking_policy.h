@@ -19,6 +19,7 @@ struct DriveState {
   bool lost = false;
   std::optional<PoseInPriorMap> in_prior_map = {};  ///< where the frame that has come was found
   const Frame* right = nullptr;  ///< the frame that has come, as the right camera sees it by itself
+  const MaskedArea* masked = nullptr;  ///< where no features of its left image are taken
 };
 
 /// How busy the mapper is.

@@ -11,12 +11,11 @@
 namespace aisle::slam {
 namespace {
 
-void DropMasked(const Pyramid& pyramid, int level, const MaskMargin& mask, double margin_px,
+void DropMasked(const Pyramid& pyramid, int level, const MaskedArea& masked,
                 std::vector<Corner>& corners) {
-  if (mask.rejects_nothing()) return;
-  const Disc disc = ChamferDisc(margin_px * pyramid.scales[static_cast<std::size_t>(level)]);
+  if (masked.empty()) return;
   std::erase_if(corners, [&](const Corner& corner) {
-    return mask.Reaches(pyramid.ToFull(cv::Point2d(corner.x, corner.y), level), disc);
+    return masked.Contains(pyramid.ToFull(cv::Point2d(corner.x, corner.y), level), level);
   });
 }
 
@@ -68,11 +67,11 @@ ImageCorners FindCorners(const cv::Mat1b& image, const FeatureOptions& options) 
 ImageFeatures ChooseFeatures(ImageCorners corners, const cv::Mat1b& mask,
                              const FeatureOptions& options) {
   ImageFeatures image{std::move(corners.pyramid), {}};
-  const MaskMargin margin(mask);
+  const MaskedArea masked(mask, options);
   std::vector<int> available;
   for (int level = 0; level < image.pyramid.size(); ++level) {
     std::vector<Corner>& of_level = corners.levels[static_cast<std::size_t>(level)];
-    DropMasked(image.pyramid, level, margin, options.mask_margin_px, of_level);
+    DropMasked(image.pyramid, level, masked, of_level);
     available.push_back(static_cast<int>(of_level.size()));
   }
   const std::vector<int> share = ShareBudget(available, options.features, options.scale);

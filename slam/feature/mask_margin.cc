@@ -58,4 +58,11 @@ bool MaskMargin::Reaches(cv::Point centre, const Disc& disc) const {
   return false;
 }
 
+MaskedArea::MaskedArea(const cv::Mat1b& mask, const FeatureOptions& options) : margin_(mask) {
+  double scale = 1;
+  for (int level = 0; level < options.levels; ++level, scale *= options.scale) {
+    discs_.push_back(ChamferDisc(options.mask_margin_px * scale));
+  }
+}
+
 }  // namespace aisle::slam

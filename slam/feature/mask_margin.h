@@ -4,6 +4,8 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "slam/feature/feature_options.h"
+
 namespace aisle::slam {
 
 /// All pixels within a distance of a centre: half its width in the centre's row, the next one, ...
@@ -27,6 +29,22 @@ class MaskMargin {
  private:
   /// Of each row how many of its first x pixels are rejected, modulo 2^16: no disc is that wide.
   cv::Mat_<std::uint16_t> rejected_before_;
+};
+
+/// Where a mask leaves no corner: nearer to a rejected pixel than FeatureOptions::mask_margin_px.
+class MaskedArea {
+ public:
+  MaskedArea(const cv::Mat1b& mask, const FeatureOptions& options);
+
+  bool empty() const { return margin_.rejects_nothing(); }
+  /// Of a pixel of the full image, at one of the options' levels.
+  bool Contains(cv::Point pixel, int level) const {
+    return margin_.Reaches(pixel, discs_[static_cast<std::size_t>(level)]);
+  }
+
+ private:
+  MaskMargin margin_;
+  std::vector<Disc> discs_;
 };
 
 }  // namespace aisle::slam

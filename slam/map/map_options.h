@@ -30,7 +30,7 @@ struct CreateLandmarksOptions {
   double worst_depth_ratio = 0.1;
   /// With fewer of those, the best of the others make up the number: far points say little of where
   /// the rig is, but more than nothing.
-  int least = 60;
+  int least = 200;
   double worst_depth_ratio_then = 0.5;  ///< of these others
 };
 

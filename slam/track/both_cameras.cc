@@ -19,7 +19,8 @@ std::vector<PointObservation> WithRight(const PlainContext& context,
 }  // namespace
 
 PlainContext LeftAlone(const PlainContext& context) {
-  return {context.map, context.frame, context.camera, context.levels, context.options};
+  return {context.map,     context.frame, context.camera, context.levels,
+          context.options, nullptr,       context.masked};
 }
 
 std::vector<Match> MatchRight(const PlainContext& context, const std::vector<Expected>& expected,

@@ -19,6 +19,11 @@ int ProvenLandmarks(const Map& map, const Keyframe& keyframe) {
       }));
 }
 
+int StereoPoints(const Frame& frame) {
+  return static_cast<int>(std::count_if(frame.measurements.begin(), frame.measurements.end(),
+                                        [](const Measurement& m) { return m.has_depth(); }));
+}
+
 double MedianDepth(const Frame& frame, const StereoCamera& camera) {
   std::vector<double> disparities;
   for (const Measurement& measurement : frame.measurements) {
@@ -53,7 +58,9 @@ bool NeedsKeyframe(const Map& map, const Frame& frame, const FramePose& pose,
       close.tracked < options.few_close && close.untracked > options.many_new_close;
   const double share =
       map.keyframes().size() < 2 ? options.first_tracked_share : options.tracked_share;
-  return lacks_close || inliers < share * ProvenLandmarks(map, reference);
+  const bool lacks_any =
+      inliers < options.few_inliers && StereoPoints(frame) - inliers > options.many_new;
+  return lacks_close || lacks_any || inliers < share * ProvenLandmarks(map, reference);
 }
 
 }  // namespace aisle::slam

@@ -20,7 +20,7 @@ std::vector<Expected> ExpectOfPriorMap(const PlainContext& context, const TrackM
 
 std::optional<PoseInPriorMap> FindInPriorMap(const PlainContext& context, const TrackMemory& memory,
                                              KeyframeId first_of_drive) {
-  const auto& [map, frame, camera, levels, options, right] = context;
+  const auto& [map, frame, camera, levels, options, right, masked] = context;
   const Eigen::Isometry3d T_predicted_world =
       ReckonedPose(map, memory, frame.stamp_ns, options).inverse();
   FramePose found;

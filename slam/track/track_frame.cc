@@ -1,6 +1,7 @@
 #include "slam/track/track_frame.h"
 
 #include <numbers>
+#include <set>
 
 #include "slam/common/seconds.h"
 #include "slam/map/landmarks_of.h"
@@ -50,6 +51,24 @@ std::optional<FramePose> RefineAround(const PlainContext& context, const FirstPo
   return RefineInLocalMap(context, first.T_rig_world, first.landmarks, {});
 }
 
+/// The landmarks that the frame should show. What lies behind a mover is found all the same where
+/// the pose that expects it there is a little off.
+std::vector<LandmarkId> Unmasked(const PlainContext& context, const std::vector<Expected>& expected,
+                                 const std::vector<Match>& matches) {
+  std::set<LandmarkId> found;
+  for (const Match& match : matches) found.insert(match.landmark);
+  const auto is_masked = [&](const Expected& one) {
+    const cv::Point pixel(cvRound(one.uvd.x()), cvRound(one.uvd.y()));
+    return context.masked && context.masked->Contains(pixel, one.level) &&
+           !found.contains(one.landmark->id);
+  };
+  std::vector<LandmarkId> unmasked;
+  for (const Expected& one : expected) {
+    if (!is_masked(one)) unmasked.push_back(one.landmark->id);
+  }
+  return unmasked;
+}
+
 /// The frame with what the landmarks that the pose keeps have been found to measure. Other features
 /// may become landmarks of their own, where they are themselves.
 std::shared_ptr<const Frame> WithMeasurements(const std::shared_ptr<const Frame>& frame,
@@ -86,7 +105,7 @@ bool IsNear(const Eigen::Isometry3d& T_predicted_world, const Eigen::Isometry3d&
 
 std::vector<Expected> ExpectAround(const PlainContext& context, const TrackMemory& memory,
                                    const Eigen::Isometry3d& T_rig_world) {
-  const auto& [map, frame, camera, levels, options, right] = context;
+  const auto& [map, frame, camera, levels, options, right, masked] = context;
   return ExpectAll(FindLocalMap(map, memory.landmarks, options.local_keyframes).landmarks, camera,
                    T_rig_world, frame.scale, levels);
 }
@@ -103,8 +122,9 @@ std::optional<FramePose> RefineInLocalMap(const PlainContext& context,
   result.local = FindLocalMap(context.map, landmarks, context.options.local_keyframes);
   const std::vector<Expected> expected = ExpectAll(
       result.local.landmarks, context.camera, T_rig_world, context.frame.scale, context.levels);
-  for (const Expected& one : expected) result.expected.push_back(one.landmark->id);
   result.matches = MatchByProjection(context.frame, expected, context.options.local_map);
+  result.expected = Unmasked(context, expected, result.matches);
+  result.in_view = static_cast<int>(expected.size());
   result.right_matches = MatchRight(context, expected, result.matches, context.options.local_map);
   result.pose =
       RefinePose(context.camera, T_rig_world,
@@ -136,12 +156,11 @@ int LeftInliers(const FramePose& found) {
 }
 
 bool IsConvincing(const FramePose& found, const TrackOptions& options) {
-  return found.pose.inliers >=
-         options.convincing_share * static_cast<double>(found.expected.size());
+  return found.pose.inliers >= options.convincing_share * found.in_view;
 }
 
 std::optional<FramePose> TrackFrame(const PlainContext& context, const TrackMemory& memory) {
-  const auto& [map, frame, camera, levels, options, right] = context;
+  const auto& [map, frame, camera, levels, options, right, masked] = context;
   const Eigen::Isometry3d T_world_last = memory.PoseIn(map);
   const double gap_s = SecondsBetween(memory.stamp_ns, frame.stamp_ns);
   const bool gap_is_short = gap_s <= options.longest_gap_s;
@@ -176,7 +195,7 @@ bool CanBeThere(const PlainContext& context, const TrackMemory& memory, const Fr
 }
 
 std::optional<FramePose> FindAgain(const PlainContext& context, const TrackMemory& memory) {
-  const auto& [map, frame, camera, levels, options, right] = context;
+  const auto& [map, frame, camera, levels, options, right, masked] = context;
   const DeadReckoningOptions& reckoning = options.dead_reckoning;
   const double gap_s = SecondsBetween(memory.stamp_ns, frame.stamp_ns);
   const auto reckoned = DeadReckoned(context, memory);
@@ -186,7 +205,7 @@ std::optional<FramePose> FindAgain(const PlainContext& context, const TrackMemor
 
   TrackOptions relaxed = options;
   relaxed.least_map_inliers = reckoning.least_inliers;
-  const PlainContext relaxed_context{map, frame, camera, levels, relaxed, right};
+  const PlainContext relaxed_context{map, frame, camera, levels, relaxed, right, masked};
   for (const double grown_px : {0.0, reckoning.radius_growth_px_per_s * gap_s}) {
     MatchOptions match_options = reckoning.match;
     match_options.radius_px += grown_px;
@@ -195,8 +214,7 @@ std::optional<FramePose> FindAgain(const PlainContext& context, const TrackMemor
     if (!pose) continue;
     auto found = RefineInLocalMap(relaxed_context, pose->T_rig_world, Inliers(matches, *pose), {});
     if (found && IsNear(T_predicted_world, found->pose.T_rig_world, gap_s, reckoning) &&
-        found->pose.inliers >=
-            reckoning.least_share * static_cast<double>(found->expected.size())) {
+        found->pose.inliers >= reckoning.least_share * found->in_view) {
       return found;
     }
   }

@@ -48,12 +48,16 @@ struct FramePose {
   std::vector<Match> right_matches = {};  ///< of landmarks that the right camera alone has shown
   LocalMap local;
   std::vector<LandmarkId> expected;  ///< landmarks that should have been seen
+  int in_view = 0;  ///< landmarks; with those that should not, as a mask hides them
+  /// As the images alone have told the pose, where inertia has had a say in it.
+  std::optional<RefinedPose> seen = {};
 };
 
 /// How many landmarks the left camera has found where the pose has them.
 int LeftInliers(const FramePose& found);
 
-/// Whether a pose explains TrackOptions::convincing_share of what should be seen from it.
+/// Whether a pose explains TrackOptions::convincing_share of what is in view from it. What a mask
+/// hides counts: of a few landmarks around somebody who hides the rest chance may explain enough.
 bool IsConvincing(const FramePose& found, const TrackOptions& options);
 
 /// Finds the frame in the map: from where motion predicts it, from where it was, or by recognising

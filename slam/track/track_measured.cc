@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace aisle::slam {
 namespace {
@@ -51,10 +52,10 @@ bool AgreesWithPrior(const FramePose& found, const Reckoned& reckoned, double mo
 /// it counts itself. Nothing where what they tell contradicts it.
 std::optional<FramePose> FindAround(const PlainContext& context, const TrackMemory& memory,
                                     const Reckoned& reckoned) {
-  const auto& [map, frame, camera, levels, options, right] = context;
+  const auto& [map, frame, camera, levels, options, right, masked] = context;
   TrackOptions relaxed = options;
   relaxed.least_map_inliers = options.measured.least_inliers;
-  const PlainContext relaxed_context{map, frame, camera, levels, relaxed, right};
+  const PlainContext relaxed_context{map, frame, camera, levels, relaxed, right, masked};
   RefinePoseOptions refine;
   refine.prior = {reckoned.T_rig_world, reckoned.covariance.inverse()};
 
@@ -76,6 +77,31 @@ std::optional<FramePose> FindAround(const PlainContext& context, const TrackMemo
     if (found && AgreesWithPrior(*found, reckoned, options.measured.most_chi2)) return found;
   }
   return std::nullopt;
+}
+
+/// What a pose stands on.
+std::vector<PointObservation> ObservationsOf(const PlainContext& context, const FramePose& found) {
+  return found.measurements.empty()
+             ? ObservationsOfBoth(context, found.matches, found.right_matches)
+             : ObservationsOfBoth(context, found.measurements, found.matches, found.right_matches);
+}
+
+/// A pose that the images have told, with where inertia led as one more observation: all that they
+/// see of the world may be a strip beside somebody, where a turn looks like a step aside. It has no
+/// say where that leads to a pose that it does not allow, or that few of the landmarks agree with:
+/// the rig was jolted, or brakes hard.
+FramePose Steadied(const PlainContext& context, const Reckoned& reckoned, FramePose found) {
+  constexpr double kStillAgree = 0.9;
+  const Matrix6d information = reckoned.covariance.inverse();
+  RefinePoseOptions refine{.rounds = 2, .trust_start = true};
+  refine.prior = {reckoned.T_rig_world, information};
+  RefinedPose steady =
+      RefinePose(context.camera, found.pose.T_rig_world, ObservationsOf(context, found), refine);
+  const Vector6d off = Difference(reckoned.T_rig_world, steady.T_rig_world);
+  const bool allowed = off.dot(information * off) <= context.options.inertia.most_chi2;
+  if (allowed && steady.well_posed && steady.inliers >= kStillAgree * found.pose.inliers)
+    found.seen = std::exchange(found.pose, std::move(steady));
+  return found;
 }
 
 /// By their looks keyframes may tell of anywhere; only what agrees is believed. How the rig went
@@ -113,8 +139,8 @@ std::optional<FramePose> TrackCarried(const PlainContext& context, const TrackMe
   auto found = TrackFrame(left, memory);
   if (!memory.carried) return found;
   const bool convincing = found && IsConvincing(*found, context.options);
-  if (convincing && memory.velocity) return found;
   const Reckoned reckoned = ReckonedFrom(context.map, memory, *memory.carried);
+  if (convincing && memory.velocity) return Steadied(left, reckoned, std::move(*found));
   if (found && !AgreesWithReckoned(*found, reckoned, context.options.inertia.most_chi2))
     found.reset();
   if (found && convincing) return found;

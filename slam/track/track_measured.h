@@ -22,7 +22,8 @@ std::optional<FramePose> TrackMeasured(const PlainContext& context, const TrackM
 std::optional<FramePose> TrackInPriorMap(const PlainContext& context, const TrackMemory& memory,
                                          const PoseInPriorMap& told);
 
-/// Finds the frame in the map as TrackFrame does. A pose that explains too little of what should be
+/// Finds the frame in the map as TrackFrame does, where the rig's inertia counts as one more
+/// observation. A pose that explains too little of what should be
 /// seen must be where the rig's inertia can have carried it, and contends with what both
 /// cameras find by looking there, as if inertia were a measurement: who explains more is believed.
 /// While there is no velocity, and what is carried is what the images have shown of the rig's

@@ -103,6 +103,13 @@ void Describe(OptionFields& fields, KeyframeOptions& options) {
                  "many_new_close other ones.");
   fields.Integer("many_new_close", &options.many_new_close, {0, 100000}, "",
                  "Number of close points not in the map above which a frame becomes a keyframe.");
+  fields.Integer(
+      "few_inliers", &options.few_inliers, {0, 100000}, "",
+      "A frame becomes a keyframe when it tracks fewer landmarks than this, near or far, "
+      "and has many_new other stereo points.");
+  fields.Integer("many_new", &options.many_new, {0, 100000}, "",
+                 "Number of stereo points not in the map above which such a frame becomes a "
+                 "keyframe.");
   fields.Number(
       "least_motion", &options.least_motion, {0, 10}, "",
       "Translation since the reference keyframe, over the median depth, below which there "

@@ -20,6 +20,14 @@ std::optional<Motion> MotionAfterCoasting(const TrackMemory& before, const Veloc
   return before.velocity ? Motion{learned.per_second} : before.motion;
 }
 
+/// The step from the last frame as the images tell it: of what the velocity itself has had a say in
+/// it would learn that it was right.
+MeasuredMotion StepAsSeen(const Map& map, const TrackMemory& before, const FramePose& now) {
+  const RefinedPose& seen = now.seen ? *now.seen : now.pose;
+  return Compose({Eigen::Isometry3d::Identity(), before.covariance},
+                 {seen.T_rig_world * before.PoseIn(map), seen.covariance});
+}
+
 }  // namespace
 
 void TrackRecord::Note(const Map& map, const Frame& frame, const FramePose& pose, bool goes_on,
@@ -30,12 +38,9 @@ void TrackRecord::Note(const Map& map, const Frame& frame, const FramePose& pose
   std::optional<Velocity> velocity;
   if (goes_on) {
     const Eigen::Isometry3d T_world_last = memory_.PoseIn(map);
-    const Eigen::Isometry3d T_now_before = T_world_rig.inverse() * T_world_last;
-    const Matrix6d carried = Adjoint(T_now_before);
-    const MeasuredMotion step{
-        T_now_before, pose.pose.covariance + carried * memory_.covariance * carried.transpose()};
     motion = EstimateMotion(T_world_last, T_world_rig, seconds);
-    if (motion) velocity = Learn(memory_.velocity, step, seconds, options.inertia);
+    if (motion)
+      velocity = Learn(memory_.velocity, StepAsSeen(map, memory_, pose), seconds, options.inertia);
     if (motion && memory_.coasted) motion = MotionAfterCoasting(memory_, *velocity, seconds);
   }
   memory_.velocity = velocity;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "slam/camera/stereo_camera.h"
+#include "slam/feature/mask_margin.h"
 #include "slam/map/frame.h"
 #include "slam/map/map.h"
 
@@ -15,6 +16,7 @@ struct TrackingContext {
   int levels;  ///< of the feature pyramid
   const Options& options;
   const Frame* right = nullptr;  ///< what the right camera sees by itself; null: nobody asks it
+  const MaskedArea* masked = nullptr;  ///< where the left camera's features are not taken
 };
 
 }  // namespace aisle::slam

@@ -53,5 +53,19 @@ TEST(MaskMargin, ADiscOfNoRadiusIsItsCentre) {
   EXPECT_FALSE(MaskMargin(mask).Reaches({1, 0}, {0}));
 }
 
+TEST(MaskedArea, ItsMarginIsOfTheLevelsOwnPixels) {
+  cv::Mat1b mask(40, 40, std::uint8_t{0});
+  mask(20, 20) = 255;
+  const FeatureOptions options{.levels = 3, .scale = 2, .mask_margin_px = 3};
+  const MaskedArea masked(mask, options);
+  for (int level = 0; level < options.levels; ++level) {
+    const int margin_px = 3 << level;  // a step along an axis is 0.955 pixels long
+    EXPECT_TRUE(masked.Contains({20 + margin_px, 20}, level)) << level;
+    EXPECT_FALSE(masked.Contains({21 + margin_px, 20}, level)) << level;
+  }
+  EXPECT_FALSE(masked.empty());
+  EXPECT_TRUE(MaskedArea({}, options).empty());
+}
+
 }  // namespace
 }  // namespace aisle::slam

@@ -100,5 +100,56 @@ TEST_F(TrackFrameTest, AsksForAKeyframeAfterMotionNotAtRest) {
   EXPECT_TRUE(NeedsKeyframe(map, *turned_frame, *turned, {}, {}));
 }
 
+/// A landmark that somebody walks in front of would be lost to the map for not being found there.
+TEST_F(TrackFrameTest, WhatAMaskHidesIsNotExpected) {
+  constexpr int kHidden_px = 300;
+  const TrackOptions options;
+  const StereoCamera camera;
+  const Eigen::Isometry3d truth = At(0, 0.05);
+  cv::Mat1b mask(camera.height, camera.width, std::uint8_t{0});
+  mask.colRange(0, kHidden_px) = 255;
+  const MaskedArea masked(mask, {});
+  const auto frame = world.See(truth, 50'000'000, PointWorld::Eye::kLeft, kHidden_px);
+  const auto blind = TrackFrame({map, *frame, camera, 8, options}, memory);
+  const auto knowing = TrackFrame({map, *frame, camera, 8, options, nullptr, &masked}, memory);
+  ASSERT_TRUE(blind && knowing);
+  EXPECT_EQ(blind->pose.T_rig_world.matrix(), knowing->pose.T_rig_world.matrix());
+  EXPECT_EQ(std::ssize(blind->expected), blind->in_view);
+  EXPECT_EQ(knowing->in_view, blind->in_view);
+  EXPECT_LT(std::ssize(knowing->expected), 0.8 * knowing->in_view);
+  const double disc_px = 3 * std::pow(1.2, 7);
+  for (const LandmarkId id : knowing->expected) {
+    const double u = Project(camera, truth.inverse() * map.At(id).position).x();
+    EXPECT_GT(u, kHidden_px - 1);
+  }
+  for (const LandmarkId id : blind->expected) {
+    const double u = Project(camera, truth.inverse() * map.At(id).position).x();
+    const bool kept = std::ranges::count(knowing->expected, id) > 0;
+    EXPECT_TRUE(kept || u < kHidden_px + disc_px) << u;
+  }
+}
+
+/// Beside somebody who fills the view all that is seen of the world is far. It is better than to go
+/// on with the few landmarks that are left.
+TEST_F(TrackFrameTest, FewLandmarksAmongManyStereoPointsAskForAKeyframe) {
+  const auto frame = world.See(At(0, 0.2), 50'000'000);
+  auto found = TrackFrame({map, *frame, {}, 8, {}}, memory);
+  ASSERT_TRUE(found);
+  KeyframeOptions options{.first_tracked_share = 0, .few_close = 0, .least_turn_deg = 180};
+  options.least_motion = 0.001;
+  EXPECT_FALSE(NeedsKeyframe(map, *frame, *found, {}, options));
+  const auto keep = [&](int inliers) {
+    found->pose.inlier.assign(found->pose.inlier.size(), false);
+    std::fill_n(found->pose.inlier.begin(), inliers, true);
+    found->pose.inliers = inliers;
+  };
+  keep(options.few_inliers);
+  EXPECT_FALSE(NeedsKeyframe(map, *frame, *found, {}, options));
+  keep(options.few_inliers - 1);
+  EXPECT_TRUE(NeedsKeyframe(map, *frame, *found, {}, options));
+  options.many_new = frame->size() - options.few_inliers + 1;
+  EXPECT_FALSE(NeedsKeyframe(map, *frame, *found, {}, options));
+}
+
 }  // namespace
 }  // namespace aisle::slam

@@ -224,6 +224,24 @@ TEST_F(TrackMeasuredTest, WhatExplainsAllThatShouldBeSeenIsBelievedAgainstInerti
   EXPECT_LT(Difference(truth.inverse(), found->pose.T_rig_world).norm(), 1e-3);
 }
 
+/// Both err independently, so that they meet where a Kalman filter has them meet.
+TEST_F(TrackMeasuredTest, InertiaCountsAsOneMoreObservation) {
+  memory.velocity = Velocity{};
+  memory.carried = Measured(At(0.004, 0.303, 0.03), 0.004, 0.001);
+  const Eigen::Isometry3d truth = At(0, 0.3);
+  const auto frame = world.See(truth, kStep_ns);
+  const auto found = TrackCarried({map, *frame, {}, 8, {}}, memory, {nullptr, index}, 0);
+  ASSERT_TRUE(found);
+  ASSERT_TRUE(found->seen);
+  EXPECT_EQ(found->pose.inliers, found->seen->inliers);
+  const Eigen::Isometry3d led = memory.carried->T_now_before * memory.PoseIn(map).inverse();
+  const Matrix6d &P = memory.carried->covariance, S = found->seen->covariance;
+  const Vector6d moved = P * (P + S).ldlt().solve(Difference(led, found->seen->T_rig_world));
+  EXPECT_LT((Difference(led, found->pose.T_rig_world) - moved).norm(), 0.02 * moved.norm());
+  EXPECT_GT(Difference(found->seen->T_rig_world, found->pose.T_rig_world).norm(), 1e-5);
+  EXPECT_LT(found->pose.covariance.trace(), S.trace());
+}
+
 /// The drive has just begun: what the images have shown of the rig's motion is no inertia, which a
 /// jolt or a brake may belie. The crowd is all that should be seen.
 TEST_F(TrackMeasuredTest, ADriveThatBeginsBehindACrowdDoesNotGoAlongWithIt) {

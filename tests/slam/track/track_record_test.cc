@@ -166,6 +166,28 @@ TEST(TrackRecord, FromOnePlaceALandmarkIsLookedForOnce) {
   }
 }
 
+/// Inertia is no witness of itself.
+TEST(TrackRecord, TheVelocityLearnsFromWhatTheImagesAloneTell) {
+  PointWorld world;
+  Map map;
+  TrackMemory memory;
+  BeginAtOrigin(world, &map, &memory);
+  FramePose pose = PoseOfKeyframe(map, memory.reference);
+  pose.pose.covariance = 1e-6 * Matrix6d::Identity();
+  TrackRecord record;
+  record.Note(map, *world.See(At(0, 0), 0), pose, false, {});
+  pose.seen = pose.pose;
+  pose.seen->T_rig_world = At(0, 0.05).inverse();
+  pose.seen->covariance = 4e-6 * Matrix6d::Identity();
+  pose.pose.T_rig_world = At(0, 0.04).inverse();
+  record.Note(map, *world.See(At(0, 0.05), kStepNs), pose, true, {});
+  ASSERT_TRUE(record.memory().velocity);
+  EXPECT_NEAR(record.memory().velocity->per_second.z(), -0.05 / 0.05, 1e-9);
+  EXPECT_NEAR(record.memory().velocity->covariance(2, 2), 5e-6 / (0.05 * 0.05), 1e-9);
+  EXPECT_NEAR(record.memory().PoseIn(map).translation().z(), 0.04, 1e-12);
+  EXPECT_NEAR(record.memory().covariance(2, 2), 1e-6, 1e-12);
+}
+
 TEST(TrackRecord, AForgottenMotionIsForgottenByAll) {
   TrackRecord record = FoundAtOrigin(true);
   record.ForgetMotion();
