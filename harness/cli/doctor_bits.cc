@@ -47,22 +47,25 @@ Json ToJson(const std::vector<StageBits>& bits) {
   return stages;
 }
 
-/// The list of makes, or an empty one where there is none yet. Throws InputError.
-Json ReadMakes(const std::string& file, bool may_lack) {
-  if (may_lack && !std::filesystem::exists(file)) return Json::object();
-  try {
-    return Json::parse(ReadFile(file)).at("makes");
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(file + ": not a list of hashes by processor: " + error.what());
-  }
-}
-
 BitsOfMake FromJson(const Json& entry) {
   BitsOfMake make{.commit = entry.at("commit").get<std::string>(), .stages = {}};
   for (const auto& [stage, hash] : entry.at("stages").items()) {
     make.stages.emplace_back(stage, hash.get<std::string>());
   }
   return make;
+}
+
+/// The list of makes, or an empty one where there is none yet. Throws InputError, also where it is
+/// one of them that is not as it must be.
+Json ReadMakes(const std::string& file, bool may_lack) {
+  if (may_lack && !std::filesystem::exists(file)) return Json::object();
+  try {
+    Json makes = Json::parse(ReadFile(file)).at("makes");
+    for (const auto& [make, entry] : makes.get_ref<const Json::object_t&>()) FromJson(entry);
+    return makes;
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(file + ": not a list of hashes by processor: " + error.what());
+  }
 }
 
 /// The first stage that both have and that differs; empty where none does.

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "harness/io/file.h"
+#include "harness/io/input_error.h"
+
 namespace aisle {
 namespace {
 
@@ -33,6 +36,25 @@ TEST(HoldAgainstTest, StagesThatOneLacksAreNotAsked) {
   BitsOfMake known = kOwn;
   known.stages = {{"static light", "11"}, {"trajectory", "22"}};
   EXPECT_EQ(HoldAgainst(kOwn, known).said, "all stages equal");
+}
+
+TEST(DoctorBitsTest, AListThatIsNoneIsToldByItsName) {
+  const std::string file = testing::TempDir() + "bits.json";
+  DoctorBitsOptions options;
+  options.against = file;
+  const auto expect_told = [&](const std::string& text) {
+    WriteFileAtomically(file, text);
+    EXPECT_THAT([&] { DoctorBits(options); },
+                testing::ThrowsMessage<InputError>(
+                    testing::StartsWith(file + ": not a list of hashes by processor")))
+        << text;
+  };
+  expect_told("{");
+  expect_told("{}");
+  expect_told(R"({"makes": [1]})");
+  expect_told(R"({"makes": {"a processor": {"commit": 7, "stages": {}}}})");
+  expect_told(R"({"makes": {"a processor": {"commit": "a1"}}})");
+  expect_told(R"({"makes": {"a processor": {"commit": "a1", "stages": {"flow": 7}}}})");
 }
 
 }  // namespace
