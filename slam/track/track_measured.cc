@@ -34,6 +34,13 @@ bool AgreesWithReckoned(const FramePose& found, const Reckoned& reckoned, double
                      {found.pose.T_rig_world, found.pose.covariance}) <= most_chi2;
 }
 
+/// A covariance by its directions, in which all of another one's deviations are one.
+Eigen::SelfAdjointEigenSolver<Matrix6d> ByDeviationsOf(const Eigen::LLT<Matrix6d>& by,
+                                                       const Matrix6d& covariance) {
+  const Matrix6d half = by.matrixL().solve(covariance);
+  return Eigen::SelfAdjointEigenSolver<Matrix6d>(by.matrixL().solve(half.transpose()));
+}
+
 /// Of a pose in which the reckoned one has counted itself. They differ by what the images have
 /// moved it, whose covariance is the prior's less the posterior's (of a Kalman filter's update):
 /// seen by the prior's own deviations, 1 less each eigenvalue of the posterior's.
@@ -41,8 +48,7 @@ bool AgreesWithPrior(const FramePose& found, const Reckoned& reckoned, double mo
   constexpr double kLeast = 1e-6;  // of a direction in which the images told nothing
   const Vector6d off = Difference(reckoned.T_rig_world, found.pose.T_rig_world);
   const Eigen::LLT<Matrix6d> prior(reckoned.covariance);
-  const Matrix6d half = prior.matrixL().solve(found.pose.covariance);
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> posterior(prior.matrixL().solve(half.transpose()));
+  const auto posterior = ByDeviationsOf(prior, found.pose.covariance);
   const Vector6d moved = posterior.eigenvectors().transpose() * prior.matrixL().solve(off);
   const Vector6d told = (1 - posterior.eigenvalues().array()).max(kLeast);
   return (moved.array().square() / told.array()).sum() <= most_chi2;
@@ -88,10 +94,12 @@ std::vector<PointObservation> ObservationsOf(const PlainContext& context, const 
 
 /// A pose that the images have told, with where inertia led as one more observation: all that they
 /// see of the world may be a strip beside somebody, where a turn looks like a step aside. It has no
-/// say where that leads to a pose that it does not allow, or that few of the landmarks agree with:
-/// the rig was jolted, or brakes hard.
+/// say where they know every direction better than it does, nor where that leads to a pose that it
+/// does not allow, or that few of the landmarks agree with: the rig was jolted, or brakes hard.
 FramePose Steadied(const PlainContext& context, const Reckoned& reckoned, FramePose found) {
   constexpr double kStillAgree = 0.9;
+  const Eigen::LLT<Matrix6d> prior(reckoned.covariance);
+  if (ByDeviationsOf(prior, found.pose.covariance).eigenvalues().maxCoeff() < 1) return found;
   const Matrix6d information = reckoned.covariance.inverse();
   RefinePoseOptions refine{.rounds = 2, .trust_start = true};
   refine.prior = {reckoned.T_rig_world, information};

@@ -23,11 +23,11 @@ std::optional<FramePose> TrackInPriorMap(const PlainContext& context, const Trac
                                          const PoseInPriorMap& told);
 
 /// Finds the frame in the map as TrackFrame does; in a pose that convinces the rig's inertia counts
-/// as one more observation. One that explains too little of what is in view must be where inertia
-/// can have carried it, and contends with what both cameras find by looking there, as if inertia
-/// were a measurement: who explains more is believed. While there is no velocity, and what is
-/// carried is what the images have shown of the rig's motion, no pose may contradict it. Nothing if
-/// neither finds it.
+/// as one more observation where in some direction it knows more than the images. One that explains
+/// too little of what is in view must be where inertia can have carried it, and contends with what
+/// both cameras find by looking there, as if inertia were a measurement: who explains more is
+/// believed. While there is no velocity, and what is carried is what the images have shown of the
+/// rig's motion, no pose may contradict it. Nothing if neither finds it.
 std::optional<FramePose> TrackCarried(const PlainContext& context, const TrackMemory& memory,
                                       const Places& places, std::int64_t turn);
 

@@ -225,9 +225,15 @@ TEST_F(TrackMeasuredTest, WhatExplainsAllThatShouldBeSeenIsBelievedAgainstInerti
 }
 
 /// Both err independently, so that they meet where a Kalman filter has them meet.
-TEST_F(TrackMeasuredTest, InertiaCountsAsOneMoreObservation) {
+TEST_F(TrackMeasuredTest, InertiaCountsWhereItKnowsMoreThanTheImages) {
   memory.velocity = Velocity{};
   memory.carried = Measured(At(0.004, 0.303, 0.03), 0.004, 0.001);
+  const auto sure =
+      TrackCarried({map, *world.See(At(0, 0.3), kStep_ns), {}, 8, {}}, memory, {nullptr, index}, 0);
+  ASSERT_TRUE(sure);
+  EXPECT_FALSE(sure->seen);
+
+  memory.carried = Measured(At(0.0004, 0.3003, 0.003), 4e-4, 1e-4);
   const Eigen::Isometry3d truth = At(0, 0.3);
   const auto frame = world.See(truth, kStep_ns);
   const auto found = TrackCarried({map, *frame, {}, 8, {}}, memory, {nullptr, index}, 0);
