@@ -13,6 +13,9 @@ void Describe(OptionFields& fields, FeatureOptions& options) {
                  "Contrast that FAST asks of a corner at first.");
   fields.Integer("fast_threshold_low", &options.fast_threshold_low, {1, 254}, "grey levels",
                  "Contrast asked of a corner in cells where the first finds nothing.");
+  fields.Number("least_corner_ratio", &options.least_corner_ratio, {0, 1}, "",
+                "Least ratio of the eigenvalues of the structure tensor around a corner; below, it "
+                "lies on a straight edge and is not taken. 0 takes all.");
   fields.Integer("cell_px", &options.cell_px, {8, 4096}, "px",
                  "Side of the cells in which corners are searched, in pixels of the level.");
   fields.Integer("border_px", &options.border_px, {16, 1024}, "px",

@@ -11,9 +11,12 @@ struct FeatureOptions {
   double scale = 1.2;          ///< between levels
   int fast_threshold = 20;     ///< grey levels; FAST-9 contrast asked for at first
   int fast_threshold_low = 7;  ///< grey levels; asked for in cells where the first finds nothing
-  int cell_px = 30;            ///< side of those cells, pixels of the level
-  int border_px = 16;          ///< pixels of the level; no corner nearer to the image's edge
-  double mask_margin_px = 3;   ///< pixels of the level; no corner nearer to a masked pixel
+  /// Of the weakest to the strongest change of grey around a corner in any direction, squared: with
+  /// less it is a straight edge, on which the corner slides. 0: all are taken.
+  double least_corner_ratio = 0.03;
+  int cell_px = 30;           ///< side of those cells, pixels of the level
+  int border_px = 16;         ///< pixels of the level; no corner nearer to the image's edge
+  double mask_margin_px = 3;  ///< pixels of the level; no corner nearer to a masked pixel
 };
 
 /// Names every option with its range, unit and a sentence.

@@ -82,6 +82,7 @@ constexpr int kAll = 1'000'000;  // keyframes: no map has more
 SlamOptions OrbSlam2Published() {
   SlamOptions options;
   options.base = Base::kOrbSlam2;
+  options.feature.least_corner_ratio = 0;
   options.keypoint_noise_px = 1;
   options.equal_columns = true;
   options.stereo.refinement = RowRefinement::kParabola;

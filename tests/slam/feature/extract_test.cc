@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numeric>
 #include <opencv2/imgproc.hpp>
 
+#include "slam/feature/corners.h"
 #include "tests/slam/stereo/synthetic_view.h"
 
 namespace aisle::slam {
@@ -47,6 +49,37 @@ TEST(ExtractFeatures, TakesImagesWithoutAnyFeature) {
     const cv::Mat1b image(480, 752, static_cast<std::uint8_t>(grey));
     EXPECT_EQ(ExtractFeatures(image, {}, {}).features.size(), 0);
   }
+}
+
+/// A line on the floor along which the rig drives: its corners are the pixels' own, and go with it.
+TEST(DetectCorners, NoneLiesOnAStraightEdge) {
+  cv::Mat1b image(480, 752, std::uint8_t{60});
+  for (int v = 0; v < image.rows; ++v) {
+    for (int u = 0; u < image.cols; ++u) {
+      if (v > 150 + 0.37 * u) image(v, u) = 220;
+    }
+  }
+  const cv::Rect box(500, 60, 60, 60);
+  cv::rectangle(image, box, 220, cv::FILLED);
+  cv::GaussianBlur(image, image, {}, 1);
+  cv::Mat1b noise(image.size());
+  cv::RNG(3).fill(noise, cv::RNG::NORMAL, 20, 4);
+  image += noise;
+  FeatureOptions options;
+  const auto on_the_line = [&] {
+    int on_line = 0, at_box = 0;
+    for (const Corner& corner : DetectCorners(image, options)) {
+      const auto near = [&](int u, int v) { return std::hypot(corner.x - u, corner.y - v) < 4; };
+      const bool of_box = near(500, 60) || near(559, 60) || near(500, 119) || near(559, 119);
+      at_box += of_box;
+      on_line += std::abs(corner.y - (150 + 0.37 * corner.x)) < 3;
+    }
+    EXPECT_GE(at_box, 4);
+    return on_line;
+  };
+  EXPECT_EQ(on_the_line(), 0);
+  options.least_corner_ratio = 0;
+  EXPECT_GT(on_the_line(), 20);
 }
 
 /// Cameras often deliver both images in one, side by side.
