@@ -298,7 +298,7 @@ void StereoSlam::Impl::TakeDueWork(TrackedFrame& result) {
 
 /// What is remembered of the landmarks of a map in whose place another is now.
 void StereoSlam::Impl::CarryOver(const std::optional<Map>& replaced) {
-  if (!replaced || options.base == Base::kPlain) return;
+  if (!replaced) return;
   track.CarryOver(*replaced, keeper.map());
   policy->CarryOver(*replaced, keeper.map());
 }

@@ -22,9 +22,12 @@ std::optional<FramePose> PlainTracking::Find(const std::shared_ptr<const Frame>&
 KeyframeVerdict PlainTracking::NeedsKeyframe(const Map& map, const Frame& frame,
                                              const FramePose& pose,
                                              const MapperState& mapper) const {
-  // One job at a time: the next keyframe waits for the appointed frame, not for a thread.
-  const bool taken =
-      mapper.idle && slam::NeedsKeyframe(map, frame, pose, camera_, options_.keyframe);
+  // One job at a time: the next keyframe waits for the appointed frame, not for a thread; one that
+  // is needed at once waits for it in the map.
+  const bool taken = mapper.idle
+                         ? slam::NeedsKeyframe(map, frame, pose, camera_, options_.keyframe)
+                         : !mapper.closing && mapper.waiting == 0 &&
+                               NeedsKeyframeAtOnce(map, frame, pose, camera_, options_.keyframe);
   return {.taken = taken};
 }
 

@@ -33,6 +33,11 @@ double MedianDepth(const Frame& frame, const StereoCamera& camera) {
   return DepthOf(camera, std::max(Median(std::move(disparities)), 0.1));
 }
 
+/// T_reference_rig.
+Eigen::Isometry3d MotionFrom(const Keyframe& reference, const FramePose& pose) {
+  return (pose.pose.T_rig_world * reference.T_world_rig).inverse();
+}
+
 bool HasMoved(const Eigen::Isometry3d& T_reference_rig, double median_depth_m,
               const KeyframeOptions& options) {
   const double turn_deg =
@@ -43,24 +48,32 @@ bool HasMoved(const Eigen::Isometry3d& T_reference_rig, double median_depth_m,
 
 }  // namespace
 
+bool NeedsKeyframeAtOnce(const Map& map, const Frame& frame, const FramePose& pose,
+                         const StereoCamera& camera, const KeyframeOptions& options) {
+  const int inliers = LeftInliers(pose);
+  const bool lacks_any = inliers >= options.least_inliers && inliers < options.few_inliers &&
+                         StereoPoints(frame) - inliers > options.many_new;
+  if (!lacks_any) return false;
+  const Keyframe& reference = map.At(pose.local.reference);
+  return HasMoved(MotionFrom(reference, pose), MedianDepth(frame, camera), options) ||
+         inliers < options.first_tracked_share * ProvenLandmarks(map, reference);
+}
+
 bool NeedsKeyframe(const Map& map, const Frame& frame, const FramePose& pose,
                    const StereoCamera& camera, const KeyframeOptions& options) {
+  if (NeedsKeyframeAtOnce(map, frame, pose, camera, options)) return true;
   // What the right camera alone shows does not join the map.
   const int inliers = LeftInliers(pose);
   if (inliers < options.least_inliers) return false;
   const Keyframe& reference = map.At(pose.local.reference);
-  const Eigen::Isometry3d T_reference_rig =
-      (pose.pose.T_rig_world * reference.T_world_rig).inverse();
-  if (!HasMoved(T_reference_rig, MedianDepth(frame, camera), options)) return false;
+  if (!HasMoved(MotionFrom(reference, pose), MedianDepth(frame, camera), options)) return false;
 
   const ClosePoints close = CountClosePoints(frame, pose, camera, options.close_baselines);
   const bool lacks_close =
       close.tracked < options.few_close && close.untracked > options.many_new_close;
   const double share =
       map.keyframes().size() < 2 ? options.first_tracked_share : options.tracked_share;
-  const bool lacks_any =
-      inliers < options.few_inliers && StereoPoints(frame) - inliers > options.many_new;
-  return lacks_close || lacks_any || inliers < share * ProvenLandmarks(map, reference);
+  return lacks_close || inliers < share * ProvenLandmarks(map, reference);
 }
 
 }  // namespace aisle::slam

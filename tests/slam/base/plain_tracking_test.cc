@@ -21,19 +21,42 @@ class PlainTrackingTest : public testing::Test {
   PlainTracking policy{{}, {}};
 };
 
+/// The rig's frame and pose half a metre on, where it finds again `inliers` landmarks.
+struct Seen {
+  std::shared_ptr<const Frame> frame;
+  FramePose pose;
+};
+Seen SeeHalfAMetreOn(const PointWorld& world, const Map& map, KeyframeId reference, int inliers) {
+  Seen seen{world.See(At(0.5, 1), 50'000'000), PoseOfKeyframe(map, reference)};
+  seen.pose.pose.T_rig_world = At(0.5, 1).inverse();
+  seen.pose.matches.resize(static_cast<std::size_t>(inliers));
+  seen.pose.pose.inlier.resize(seen.pose.matches.size());
+  seen.pose.pose.inliers = inliers;
+  return seen;
+}
+
 TEST_F(PlainTrackingTest, NoKeyframeIsMadeWhileAnotherIsWorkedIn) {
-  const auto frame = world.See(At(0.5, 1), 50'000'000);
-  FramePose pose = PoseOfKeyframe(map, memory.reference);
-  pose.pose.T_rig_world = At(0.5, 1).inverse();
-  pose.matches.resize(pose.matches.size() / 4);
-  pose.pose.inlier.resize(pose.matches.size());
-  pose.pose.inliers = static_cast<int>(pose.matches.size());
-  const KeyframeVerdict idle = policy.NeedsKeyframe(map, *frame, pose, {});
+  SlamOptions options;
+  options.keyframe.few_inliers = 0;  // none is needed at once
+  const PlainTracking patient{{}, options};
+  const Seen seen = SeeHalfAMetreOn(world, map, memory.reference, 40);
+  const KeyframeVerdict idle = patient.NeedsKeyframe(map, *seen.frame, seen.pose, {});
   EXPECT_TRUE(idle.taken);
   EXPECT_FALSE(idle.hurry);
-  const KeyframeVerdict busy = policy.NeedsKeyframe(map, *frame, pose, {.idle = false});
+  const KeyframeVerdict busy = patient.NeedsKeyframe(map, *seen.frame, seen.pose, {.idle = false});
   EXPECT_FALSE(busy.taken);
   EXPECT_FALSE(busy.hurry);  // it waits for the appointed frame
+}
+
+/// Somebody steps into the view: the next frame may see nothing of the map.
+TEST_F(PlainTrackingTest, AKeyframeThatIsNeededAtOnceWaitsInTheMap) {
+  const Seen seen = SeeHalfAMetreOn(world, map, memory.reference, 40);
+  const auto taken = [&](const MapperState& mapper) {
+    return policy.NeedsKeyframe(map, *seen.frame, seen.pose, mapper).taken;
+  };
+  EXPECT_TRUE(taken({.idle = false}));
+  EXPECT_FALSE(taken({.idle = false, .closing = true}));
+  EXPECT_FALSE(taken({.idle = false, .waiting = 1}));
 }
 
 TEST_F(PlainTrackingTest, AFrameWhoseWayIsMeasuredIsLookedForThereThoughNotLost) {

@@ -151,5 +151,23 @@ TEST_F(TrackFrameTest, FewLandmarksAmongManyStereoPointsAskForAKeyframe) {
   EXPECT_FALSE(NeedsKeyframe(map, *frame, *found, {}, options));
 }
 
+/// Who walks on shows what he had hidden while the rig stands.
+TEST_F(TrackFrameTest, AtRestAKeyframeIsNeededWhereMostOfTheLastOneIsOutOfSight) {
+  const auto frame = world.See(At(0, 0), 50'000'000);
+  auto found = TrackFrame({map, *frame, {}, 8, {}}, memory);
+  ASSERT_TRUE(found);
+  const auto landmarks = static_cast<int>(found->matches.size());
+  const auto is_needed = [&](int inliers, const KeyframeOptions& options) {
+    found->pose.inlier.assign(found->pose.inlier.size(), false);
+    std::fill_n(found->pose.inlier.begin(), inliers, true);
+    found->pose.inliers = inliers;
+    return NeedsKeyframeAtOnce(map, *frame, *found, {}, options);
+  };
+  const KeyframeOptions options{.few_inliers = landmarks, .many_new = 0};
+  EXPECT_TRUE(is_needed(landmarks / 4, options));
+  EXPECT_FALSE(is_needed(landmarks / 2, options));
+  EXPECT_FALSE(is_needed(options.least_inliers - 1, options));
+}
+
 }  // namespace
 }  // namespace aisle::slam
