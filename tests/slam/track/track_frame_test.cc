@@ -129,6 +129,13 @@ TEST_F(TrackFrameTest, WhatAMaskHidesIsNotExpected) {
   }
 }
 
+/// Only the first `inliers` matches are any more.
+void KeepInliers(int inliers, FramePose& found) {
+  found.pose.inlier.assign(found.pose.inlier.size(), false);
+  std::fill_n(found.pose.inlier.begin(), inliers, true);
+  found.pose.inliers = inliers;
+}
+
 /// Beside somebody who fills the view all that is seen of the world is far. It is better than to go
 /// on with the few landmarks that are left.
 TEST_F(TrackFrameTest, FewLandmarksAmongManyStereoPointsAskForAKeyframe) {
@@ -138,14 +145,9 @@ TEST_F(TrackFrameTest, FewLandmarksAmongManyStereoPointsAskForAKeyframe) {
   KeyframeOptions options{.first_tracked_share = 0, .few_close = 0, .least_turn_deg = 180};
   options.least_motion = 0.001;
   EXPECT_FALSE(NeedsKeyframe(map, *frame, *found, {}, options));
-  const auto keep = [&](int inliers) {
-    found->pose.inlier.assign(found->pose.inlier.size(), false);
-    std::fill_n(found->pose.inlier.begin(), inliers, true);
-    found->pose.inliers = inliers;
-  };
-  keep(options.few_inliers);
+  KeepInliers(options.few_inliers, *found);
   EXPECT_FALSE(NeedsKeyframe(map, *frame, *found, {}, options));
-  keep(options.few_inliers - 1);
+  KeepInliers(options.few_inliers - 1, *found);
   EXPECT_TRUE(NeedsKeyframe(map, *frame, *found, {}, options));
   options.many_new = frame->size() - options.few_inliers + 1;
   EXPECT_FALSE(NeedsKeyframe(map, *frame, *found, {}, options));
@@ -158,9 +160,7 @@ TEST_F(TrackFrameTest, AtRestAKeyframeIsNeededWhereMostOfTheLastOneIsOutOfSight)
   ASSERT_TRUE(found);
   const auto landmarks = static_cast<int>(found->matches.size());
   const auto is_needed = [&](int inliers, const KeyframeOptions& options) {
-    found->pose.inlier.assign(found->pose.inlier.size(), false);
-    std::fill_n(found->pose.inlier.begin(), inliers, true);
-    found->pose.inliers = inliers;
+    KeepInliers(inliers, *found);
     return NeedsKeyframeAtOnce(map, *frame, *found, {}, options);
   };
   const KeyframeOptions options{.few_inliers = landmarks, .many_new = 0};
