@@ -33,6 +33,28 @@ struct EpipolarError {
   }
 };
 
+using Rays = std::vector<Eigen::Vector3d>;
+
+/// The pose now of the view before, up to scale, that fits all pairs of rays best; from `start` on.
+Eigen::Isometry3d FitEpipolarGeometry(const Rays& before, const Rays& now, double focal_px,
+                                      const Eigen::Isometry3d& start) {
+  Eigen::Vector3d direction = start.translation(), rotation;
+  const Eigen::Matrix3d R = start.linear();
+  ceres::RotationMatrixToAngleAxis(R.data(), rotation.data());
+  ceres::Problem problem;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    problem.AddResidualBlock(new ceres::AutoDiffCostFunction<EpipolarError, 1, 3, 3>(
+                                 new EpipolarError{before[i], now[i], focal_px}),
+                             new ceres::CauchyLoss(0.5), rotation.data(), direction.data());
+  }
+  problem.SetManifold(direction.data(), new ceres::SphereManifold<3>);
+  ceres::Solver::Summary summary;
+  ceres::Solve({}, &problem, &summary);
+  EXPECT_EQ(summary.termination_type, ceres::CONVERGENCE) << summary.FullReport();
+  return Eigen::Translation3d(direction) *
+         Eigen::AngleAxisd(rotation.norm(), rotation.normalized());
+}
+
 /// Four stereo pairs of EuRoC, (0, 1) and (2, 3) showing one place each, as keyframes of a map that
 /// knows nothing of how they lie to each other.
 class LoopPairs : public testing::Test {
@@ -97,32 +119,24 @@ class LoopPairs : public testing::Test {
     }
     const cv::Matx33d K(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
     cv::Mat1b inlier;
-    cv::Mat R;
-    Eigen::Vector3d rotation, direction;
+    cv::Mat R, t;
     const cv::Mat E = cv::findEssentialMat(before, now, K, cv::RANSAC, 0.999, 1.0, inlier);
-    cv::Mat1d t(3, 1, direction.data()), angle_axis(3, 1, rotation.data());
     cv::recoverPose(E, before, now, K, R, t, inlier);
-    cv::Rodrigues(R, angle_axis);
-
-    ceres::Problem problem;
-    for (int i = 0; i < inlier.rows; ++i) {
-      if (!inlier(i)) continue;
-      const auto ray = [&](const cv::Point2f& pixel) {
-        return Eigen::Vector3d((pixel.x - camera.cx) / camera.fx, (pixel.y - camera.cy) / camera.fy,
-                               1);
-      };
-      const auto match = static_cast<std::size_t>(i);
-      problem.AddResidualBlock(
-          new ceres::AutoDiffCostFunction<EpipolarError, 1, 3, 3>(
-              new EpipolarError{ray(before[match]), ray(now[match]), camera.fx}),
-          new ceres::CauchyLoss(0.5), rotation.data(), direction.data());
-    }
-    problem.SetManifold(direction.data(), new ceres::SphereManifold<3>);
-    ceres::Solver::Summary summary;
-    ceres::Solve({}, &problem, &summary);
-    EXPECT_EQ(summary.termination_type, ceres::CONVERGENCE) << summary.FullReport();
-    return Eigen::Translation3d(direction) *
-           Eigen::AngleAxisd(rotation.norm(), rotation.normalized());
+    using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.linear() = Eigen::Map<const Matrix3>(R.ptr<double>());
+    pose.translation() = Eigen::Map<const Eigen::Vector3d>(t.ptr<double>());
+    const auto agreeing = [&](const std::vector<cv::Point2f>& pixels) {
+      Rays rays;
+      for (int i = 0; i < inlier.rows; ++i) {
+        const cv::Point2f& pixel = pixels[static_cast<std::size_t>(i)];
+        if (inlier(i))
+          rays.emplace_back((pixel.x - camera.cx) / camera.fx, (pixel.y - camera.cy) / camera.fy,
+                            1);
+      }
+      return rays;
+    };
+    return FitEpipolarGeometry(agreeing(before), agreeing(now), camera.fx, pose);
   }
 
   StereoCamera camera;
