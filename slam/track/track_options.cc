@@ -93,7 +93,7 @@ void Describe(OptionFields& fields, KeyframeOptions& options) {
                 "A frame becomes a keyframe when it tracks less than this share of the reference "
                 "keyframe's landmarks.");
   fields.Number("first_tracked_share", &options.first_tracked_share, {0, 1}, "",
-                "The same share while the map has only one keyframe.");
+                "The same share while the map has only one keyframe, or the rig has not moved.");
   fields.Integer("least_inliers", &options.least_inliers, {3, 10000}, "",
                  "Least number of inliers of a keyframe.");
   fields.Number("close_baselines", &options.close_baselines, {0.1, 10000}, "baselines",

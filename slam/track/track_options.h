@@ -78,7 +78,7 @@ struct TrackOptions {
 /// When a frame becomes a keyframe.
 struct KeyframeOptions {
   double tracked_share = 0.75;       ///< of the reference keyframe's landmarks; below: new keyframe
-  double first_tracked_share = 0.4;  ///< the same while the map's only keyframe is the reference
+  double first_tracked_share = 0.4;  ///< the same of the map's only keyframe, or at rest
   int least_inliers = 15;            ///< a worse frame is no keyframe
   double close_baselines = 40;       ///< depth up to which a stereo point counts as close
   int few_close = 100;               ///< tracked close points below this ...
